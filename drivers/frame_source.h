@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "base/result.h"
+#include "base/stereo_frame.h"
+#include "base/time.h"
+
+namespace darkling {
+
+// A frame on loan: its pixels stay valid until the lease goes, which gives the buffer back to the
+// source. Move-only.
+class FrameLease {
+ public:
+  using GiveBack = void (*)(void* source, int slot);
+
+  FrameLease() = default;
+  FrameLease(const StereoFrame& frame, GiveBack give_back, void* source, int slot)
+      : frame_(frame), give_back_(give_back), source_(source), slot_(slot) {}
+  FrameLease(FrameLease&& other) noexcept { swap(other); }
+  FrameLease& operator=(FrameLease&& other) noexcept {
+    FrameLease(std::move(other)).swap(*this);
+    return *this;
+  }
+  ~FrameLease() {
+    if (give_back_ != nullptr) give_back_(source_, slot_);
+  }
+
+  [[nodiscard]] const StereoFrame& frame() const { return frame_; }
+  [[nodiscard]] bool is_held() const { return give_back_ != nullptr; }
+
+ private:
+  void swap(FrameLease& other) noexcept {
+    std::swap(frame_, other.frame_);
+    std::swap(give_back_, other.give_back_);
+    std::swap(source_, other.source_);
+    std::swap(slot_, other.slot_);
+  }
+
+  StereoFrame frame_;
+  GiveBack give_back_ = nullptr;
+  void* source_ = nullptr;
+  int slot_ = 0;
+};
+
+enum class WaitStatus {
+  kUnknown = 0,
+  kFrame,       // `lease` holds a pair
+  kBadFrame,    // the pair at `sequence` was lost or unusable; `fault` says why; go on
+  kTimeout,     // nothing within the time given
+  kEndOfSource, // a recording is over
+  kDeviceLost,  // stop() and start() again
+};
+
+enum class FrameFault {
+  kNone = 0,
+  kUnreadable,  // file absent, truncated or corrupt
+  kWrongSize,   // not the size the calibration is for, or the eyes differ
+  kUnpaired,    // one eye without the other
+};
+
+struct [[nodiscard]] WaitResult {
+  WaitStatus status = WaitStatus::kUnknown;
+  FrameFault fault = FrameFault::kNone;  // with kBadFrame
+  std::int64_t sequence = 0;             // with kBadFrame: the pair that is missing
+  FrameTime stamp;                       // with kBadFrame: when it was taken
+  FrameLease lease;                      // with kFrame
+};
+
+// Counts since start(); every pair of the source is in exactly one of the first four.
+struct SourceStats {
+  std::int64_t delivered = 0;
+  std::int64_t unreadable = 0;
+  std::int64_t wrong_size = 0;
+  std::int64_t unpaired = 0;
+  // Of the delivered: stamps that repeat or go back. Tracking goes by sequence and does not mind.
+  std::int64_t stamps_not_increasing = 0;
+};
+
+// Where stereo frames come from: a camera driver, a recording, a rendered scene.
+// Thread: one thread at a time; leases may be given back from another.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+  // Opens devices or files and claims all memory. May be called again after stop().
+  // @return kNoInput, kBadInput or kDeviceUnavailable with what was missing where.
+  virtual Result<void> start() = 0;
+  // The next pair, waiting for at most `timeout`; recordings never wait.
+  virtual WaitResult wait_next(Duration timeout) = 0;
+  // Releases what start() claimed. @pre no lease is held.
+  virtual void stop() = 0;
+  [[nodiscard]] virtual SourceStats stats() const = 0;
+};
+
+}  // namespace darkling

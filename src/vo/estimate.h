@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/time.h"
+#include "geometry/se3.h"
+
+namespace darkling {
+
+enum class TrackStatus : std::uint8_t {
+  kUnknown = 0,
+  kValid,     // the motion is measured
+  kDegraded,  // measured, but something in `reasons` made it worse than usual
+  kLost,      // not measured: the pose is held or predicted
+};
+
+// Why a frame is not simply kValid: bits, any number of them at once.
+enum Reason : std::uint32_t {
+  kReasonNone = 0,
+  kReasonLowTexture = 1u << 0,      // too few points to align
+  kReasonLowOverlap = 1u << 1,      // the template has left the image
+  kReasonNotConverged = 1u << 2,    // iteration bound reached with the step still large
+  kReasonIllConditioned = 1u << 3,  // some direction of motion is not observed
+  kReasonResidualHigh = 1u << 4,    // aligned, but the images do not match
+  kReasonDropped = 1u << 5,         // no usable pair: lost or unreadable
+  kReasonNoDepth = 1u << 6,         // stereo found no depth to track by
+};
+inline constexpr int kReasonCount = 7;
+
+// The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
+enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect };
+inline constexpr int kStageCount = 6;
+inline constexpr std::array<const char*, kStageCount> kStageNames = {"rectify", "pyramid", "planes",
+                                                                     "track",   "stereo",  "select"};
+
+// What one frame taught: one per input frame, whatever happened to it.
+struct Estimate {
+  std::int64_t sequence = 0;
+  FrameTime stamp;
+  TrackStatus status = TrackStatus::kUnknown;
+  std::uint32_t reasons = kReasonNone;  // Reason bits
+  int quality = 0;                      // -1 failed, 0 unknown, 1…100
+  bool is_keyframe = false;             // became the template of the frames that follow
+  int reset_counter = 0;                // how often the track was broken and re-anchored
+  Se3 T_world_left;                     // accumulated; held or predicted while kLost
+  Se3 T_world_body;
+  Se3 T_previous_body;                  // motion since the previous Estimate
+  int point_count = 0;                  // template points of the finest level seen in this frame
+  double visible_fraction = 0.0;        // of the template points, 0…1
+  double cost = 0.0;                    // mean truncated descriptor distance, 0…1, absolute
+  int iterations = 0;                   // of alignment, all levels
+  std::array<Duration, kStageCount> stage_times = {};
+};
+
+}  // namespace darkling

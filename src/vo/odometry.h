@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "base/stereo_frame.h"
+#include "base/time.h"
+#include "geometry/stereo_rig.h"
+#include "kernels/kernel_table.h"
+#include "vo/estimate.h"
+#include "vo/odometry_config.h"
+
+namespace darkling {
+
+// Stereo odometry of one rig: frames in, one Estimate each out. All memory is claimed by create().
+// Thread: one thread at a time. Same frames, same estimates, byte for byte.
+class Odometry {
+ public:
+  using ReadClock = MonotonicTime (*)();
+
+  // @param read_clock  times the stages; results do not depend on it.
+  // @return kConfiguration when the rig makes no sense or the thumbnail exceeds vo/limits.h.
+  static Result<std::unique_ptr<Odometry>> create(const OdometryConfig& config,
+                                                  const StereoRig& rig,
+                                                  const KernelTable& kernels, ReadClock read_clock);
+  ~Odometry();
+
+  // @pre the frame's images have the sizes of the rig's cameras.
+  [[nodiscard]] Estimate track(const StereoFrame& frame);
+
+  // Says that the pair at `sequence` is missing: the pose is predicted, status kLost with
+  // kReasonDropped. The next track() takes the gap into account.
+  [[nodiscard]] Estimate skip(std::int64_t sequence, FrameTime stamp);
+
+  [[nodiscard]] const RectifiedRig& rig() const;
+  [[nodiscard]] std::size_t arena_bytes() const;
+
+ private:
+  struct State;
+  explicit Odometry(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace darkling

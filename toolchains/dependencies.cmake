@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# Third-party libraries, each as one imported target, found once and as SYSTEM (no warnings of theirs).
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(tl-expected REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# Debian's OpenCVConfig.cmake comes only with the full libopencv-dev; we need four of its libraries.
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+foreach(component core imgproc imgcodecs calib3d)
+  find_library(OPENCV_${component}_LIBRARY opencv_${component})
+  if(OPENCV_${component}_LIBRARY)
+    add_library(opencv::${component} UNKNOWN IMPORTED)
+    set_target_properties(opencv::${component} PROPERTIES
+      IMPORTED_LOCATION ${OPENCV_${component}_LIBRARY}
+      INTERFACE_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR}
+      INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR})
+  endif()
+endforeach()
