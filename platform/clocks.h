@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/time.h"
+
+namespace darkling {
+
+// CLOCK_MONOTONIC. Async-signal-safe, never fails.
+[[nodiscard]] MonotonicTime read_monotonic_clock();
+
+// CLOCK_REALTIME. May step; only for labels.
+[[nodiscard]] EpochTime read_epoch_clock();
+
+// Sleeps until `wake_at`, or until a signal arrives.
+// @return true when `wake_at` was reached.
+[[nodiscard]] bool sleep_until(MonotonicTime wake_at);
+
+}  // namespace darkling

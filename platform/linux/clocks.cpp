@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/clocks.h"
+
+#include <cerrno>
+#include <ctime>
+
+#include "base/check.h"
+
+namespace darkling {
+
+namespace {
+
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+
+Duration read_clock(clockid_t clock) {
+  timespec now = {};
+  CHECK(clock_gettime(clock, &now) == 0, "the kernel has this clock");
+  return Duration{now.tv_sec * kNsPerSecond + now.tv_nsec};
+}
+
+}  // namespace
+
+MonotonicTime read_monotonic_clock() {
+  return MonotonicTime{read_clock(CLOCK_MONOTONIC)};
+}
+
+EpochTime read_epoch_clock() {
+  return EpochTime{read_clock(CLOCK_REALTIME)};
+}
+
+bool sleep_until(MonotonicTime wake_at) {
+  timespec until = {};
+  until.tv_sec = to_ns(wake_at) / kNsPerSecond;
+  until.tv_nsec = to_ns(wake_at) % kNsPerSecond;
+  return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != EINTR;
+}
+
+}  // namespace darkling

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/process_memory.h"
+
+#include <cstdio>
+
+namespace darkling {
+
+// Not getrusage(): its maximum survives exec, so a small program started by a large one inherits
+// the large one's peak.
+std::optional<std::int64_t> read_peak_rss_bytes() {
+  std::FILE* status = std::fopen("/proc/self/status", "r");
+  if (status == nullptr) return std::nullopt;
+  std::optional<std::int64_t> peak_bytes;
+  char line[256];
+  while (!peak_bytes && std::fgets(line, sizeof(line), status) != nullptr) {
+    long long peak_kib = 0;
+    if (std::sscanf(line, "VmHWM: %lld kB", &peak_kib) == 1) peak_bytes = peak_kib * 1024;
+  }
+  std::fclose(status);
+  return peak_bytes;
+}
+
+}  // namespace darkling

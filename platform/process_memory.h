@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace darkling {
+
+// The most memory this process has had resident, in bytes; nothing where the system does not tell.
+[[nodiscard]] std::optional<std::int64_t> read_peak_rss_bytes();
+
+}  // namespace darkling
