@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far an estimated trajectory is from the true one. Neither needs to start at the same pose:
+// drift and RPE compare motions, ATE aligns first.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "io/trajectory.h"
+
+namespace darkling {
+
+struct Evaluation {
+  int matched_poses = 0;
+  double path_m = 0.0;  // length of the true path through the matched poses
+  // KITTI odometry metric: mean over all start frames and all lengths of the error of the motion
+  // over that length, per length. Lengths are 100, 200 … 800 m where the path is at least 100 m,
+  // else 5, 10, 20 … 50 m as far as they fit; nothing where not even 5 m fit.
+  std::optional<double> drift_percent;
+  std::optional<double> drift_deg_per_m;
+  double ate_rmse_m = 0.0;  // distance of positions after the best rigid alignment
+  double rpe_rmse_m = 0.0;  // error of the motion between consecutive matched poses
+  double rpe_rmse_deg = 0.0;
+  double end_error_m = 0.0;  // error of the motion from the first to the last matched pose
+  double end_error_deg = 0.0;
+};
+
+// Rows are matched by number, stamps to the nearest truth within 5 ms.
+// @return kBadInput when the keys or frames of the two differ, or when fewer than three poses
+// match:
+//         the message gives both ranges.
+[[nodiscard]] Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate);
+
+// A true and an estimated pose of the same moment.
+struct PosePair {
+  Eigen::Affine3d truth = Eigen::Affine3d::Identity();
+  Eigen::Affine3d estimate = Eigen::Affine3d::Identity();
+};
+
+// The first half of evaluate().
+[[nodiscard]] Result<std::vector<PosePair>> match_poses(const Trajectory& truth,
+                                                        const Trajectory& estimate);
+
+}  // namespace darkling
