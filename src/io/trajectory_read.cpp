@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <optional>
 #include <string_view>
 
+#include "base/text_file.h"
 #include "io/decimal_time.h"
 #include "io/trajectory.h"
 
@@ -23,27 +18,6 @@ constexpr double kRotationTolerance = 1e-2;
 
 using Cells = std::vector<std::string_view>;
 
-Cells split(std::string_view line) {
-  constexpr const char* kSeparators = " \t\r,;";
-  Cells cells;
-  std::size_t at = line.find_first_not_of(kSeparators);
-  while (at != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(kSeparators, at), line.size());
-    cells.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(kSeparators, end);
-  }
-  return cells;
-}
-
-std::optional<double> parse_number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, value);
-  if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 struct Layout {
   const char* name;
   PoseFrame frame;
@@ -53,10 +27,10 @@ constexpr Layout kKitti = {"KITTI", PoseFrame::kLeft, PoseKey::kRow};
 constexpr Layout kTum = {"TUM", PoseFrame::kBody, PoseKey::kStamp};
 constexpr Layout kEuroc = {"EuRoC", PoseFrame::kBody, PoseKey::kStamp};
 
-Result<const Layout*> recognise(std::string_view line, std::size_t columns) {
-  if (line.find(',') != std::string_view::npos && columns >= kEurocColumns) return &kEuroc;
-  if (columns == kKittiColumns) return &kKitti;
-  if (columns == kTumColumns) return &kTum;
+Result<const Layout*> recognise(bool has_commas, std::size_t columns) {
+  if (has_commas && columns >= kEurocColumns) return &kEuroc;
+  if (!has_commas && columns == kKittiColumns) return &kKitti;
+  if (!has_commas && columns == kTumColumns) return &kTum;
   return failure(ExitCode::kBadInput,
                  std::to_string(columns) +
                      " columns; a trajectory has 12 (KITTI), 8 (TUM: stamp tx ty tz qx qy qz qw) "
@@ -66,8 +40,8 @@ Result<const Layout*> recognise(std::string_view line, std::size_t columns) {
 Result<std::vector<double>> parse_numbers(const Cells& cells, std::size_t first) {
   std::vector<double> numbers;
   for (std::size_t i = first; i < cells.size(); ++i) {
-    const auto number = parse_number(cells[i]);
-    if (!number) {
+    const auto number = parse_number<double>(cells[i]);
+    if (!number || !std::isfinite(*number)) {
       return failure(ExitCode::kBadInput, "column " + std::to_string(i + 1) + " is '" +
                                               std::string(cells[i]) + "', not a finite number");
     }
@@ -99,14 +73,7 @@ Result<Eigen::Affine3d> motion_from_quaternion(const Vector3& t, const Eigen::Qu
 }
 
 Result<FrameTime> parse_stamp(const Layout& layout, std::string_view text) {
-  std::optional<std::int64_t> ns;
-  if (&layout == &kTum) {
-    ns = ns_from_seconds_text(text);
-  } else {
-    std::int64_t value = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size()) ns = value;
-  }
+  const auto ns = &layout == &kTum ? ns_from_seconds_text(text) : parse_number<std::int64_t>(text);
   if (ns) return frame_time_from_ns(*ns);
   return failure(ExitCode::kBadInput, "column 1 is '" + std::string(text) + "', not a time in " +
                                           (&layout == &kTum ? "seconds" : "nanoseconds"));
@@ -135,10 +102,10 @@ Result<TimedPose> parse_row(const Layout& layout, const Cells& cells, std::size_
 class Reader {
  public:
   Result<void> read_line(std::string_view line) {
-    const Cells cells = split(line);
-    if (cells.empty() || cells[0].front() == '#') return {};
+    const bool has_commas = line.find(',') != std::string_view::npos;
+    const Cells cells = split(line, has_commas ? ',' : ' ');
     if (layout_ == nullptr) {
-      const auto layout = recognise(line, cells.size());
+      const auto layout = recognise(has_commas, cells.size());
       if (!layout) return tl::unexpected(layout.error());
       layout_ = *layout;
       columns_ = cells.size();
@@ -166,18 +133,15 @@ class Reader {
 }  // namespace
 
 Result<Trajectory> read_trajectory(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return failure(ExitCode::kNoInput, path + ": " + std::strerror(errno));
+  const auto lines = read_text_lines(path);
+  if (!lines) return tl::unexpected(lines.error());
   Reader reader;
-  std::string line;
-  for (int line_number = 1; std::getline(file, line); ++line_number) {
-    const auto read = reader.read_line(line);
+  for (const TextLine& line : *lines) {
+    const auto read = reader.read_line(line.text);
     if (!read) {
-      return failure(read.error().code,
-                     path + ":" + std::to_string(line_number) + ": " + read.error().message);
+      return failure(read.error().code, at_line(path, line.number) + read.error().message);
     }
   }
-  if (file.bad()) return failure(ExitCode::kNoInput, path + ": " + std::strerror(errno));
   if (reader.trajectory.poses.empty()) {
     return failure(ExitCode::kBadInput, path + ": holds no poses");
   }

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The configuration as a user sees it: named keys with unit, range and default, from a YAML file
+// and from `key=value` words. One table in config_keys.cpp is all there is to say about a key.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/result.h"
+#include "vo/odometry_config.h"
+
+namespace darkling {
+
+struct ConfigKey {
+  std::string_view name;
+  std::string_view unit;  // empty for counts and switches
+  double least;
+  double most;
+  std::variant<int OdometryConfig::*, double OdometryConfig::*, bool OdometryConfig::*> field;
+  std::string_view about;  // one sentence
+};
+
+[[nodiscard]] std::span<const ConfigKey> config_keys();
+
+// The defaults, then every key of the file, then every setting. Defaults are OdometryConfig's own.
+// @param path  of a flat YAML map; empty for none.
+// @param settings  `key=value` each.
+// @return kNoInput when the file cannot be read, kConfiguration for what is wrong in it and kUsage
+//         for what is wrong in a setting: a key that is unknown (the nearest known is named) or
+//         comes twice, a value that is no number or out of range. File and line are named.
+[[nodiscard]] Result<OdometryConfig> load_config(const std::string& path,
+                                                 const std::vector<std::string>& settings);
+
+// `config` as a file that load_config() reads back: every key with its unit, range and sentence.
+[[nodiscard]] std::string format_config(const OdometryConfig& config);
+
+}  // namespace darkling

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "io/config.h"
+#include "vo/limits.h"
+
+namespace darkling {
+
+namespace {
+
+using C = OdometryConfig;
+
+// name, unit, least, most, field, what it is.
+constexpr std::array kKeys = std::to_array<ConfigKey>({
+    {"width_px", "px", 0, kMaxWidth, &C::width_px,
+     "Width of the thumbnail that is tracked; its height follows. 0 is the source's width."},
+    {"points_per_level", "", kMinPointsPerLevel, kMaxPointsPerLevel, &C::points_per_level,
+     "Most points the template holds on each level of the pyramid; bounds the time of a frame."},
+});
+
+}  // namespace
+
+std::span<const ConfigKey> config_keys() {
+  return kKeys;
+}
+
+}  // namespace darkling
