@@ -29,9 +29,9 @@ struct Camera {
 };
 
 // Where the point `p` in the camera's optical frame (m, any scale) appears, in px; also outside the
-// image. @pre p.z() > 0 for kNone and kRadTan; p != 0 for kEquidistant.
-// Radial-tangential distortion folds back on itself far from the axis; use unproject() to ask
-// whether a pixel comes from inside the domain.
+// image. @pre p.z() > 0 for kNone and kRadTan; for kEquidistant p is not on the axis behind the
+// camera. Radial-tangential distortion folds back on itself far from the axis; use unproject() to
+// ask whether a pixel comes from inside the domain.
 [[nodiscard]] Eigen::Vector2d project(const Camera& camera, const Vector3& p);
 
 // As project(), with the 2×3 derivative by `p` in `J`.

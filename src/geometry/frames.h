@@ -3,7 +3,7 @@
 //
 //   Left, Right  rectified optical frames: x right, y down, z forward; metres.
 //   RawLeft, RawRight  optical frames of the cameras as mounted, before rectification.
-//   Body         the rig's own frame: x forward, y left, z up, unless the calibration says otherwise.
+//   Body         the rig's own: x forward, y left, z up, unless the calibration says otherwise.
 //   World        the Body frame of the first pose.
 //
 // T_a_b maps coordinates of b to coordinates of a: p_a = T_a_b * p_b, and inner names cancel:
@@ -32,6 +32,8 @@ namespace darkling {
 }
 
 // Where the coordinate `c` of a full-size pixel lies after every k×k box became one pixel.
-[[nodiscard]] constexpr double reduce_pixel(double c, double k) { return (c + 0.5) / k - 0.5; }
+[[nodiscard]] constexpr double reduce_pixel(double c, double k) {
+  return (c + 0.5) / k - 0.5;
+}
 
 }  // namespace darkling

@@ -84,7 +84,9 @@ Vector3 so3_log(const Eigen::Quaterniond& q) {
   return (2.0 * std::atan2(n, w) / n) * v;
 }
 
-Matrix3 so3_right_jacobian(const Vector3& theta) { return so3_left_jacobian(-theta); }
+Matrix3 so3_right_jacobian(const Vector3& theta) {
+  return so3_left_jacobian(-theta);
+}
 
 Matrix3 so3_right_jacobian_inverse(const Vector3& theta) {
   const double phi = theta.norm();
@@ -108,7 +110,9 @@ Se3 Se3::inverse() const {
   return {q_inverse, -(q_inverse * t_)};
 }
 
-Se3 Se3::operator*(const Se3& other) const { return {q_ * other.q_, q_ * other.t_ + t_}; }
+Se3 Se3::operator*(const Se3& other) const {
+  return {q_ * other.q_, q_ * other.t_ + t_};
+}
 
 Se3 Se3::exp(const Vector6& xi) {
   const Vector3 rho = xi.head<3>();
@@ -155,6 +159,8 @@ Matrix6 Se3::right_jacobian_inverse(const Vector6& xi) {
   return J;
 }
 
-double rotation_angle(const Se3& T) { return so3_log(T.rotation()).norm(); }
+double rotation_angle(const Se3& T) {
+  return so3_log(T.rotation()).norm();
+}
 
 }  // namespace darkling

@@ -59,7 +59,9 @@ class Se3 {
 };
 
 // T ⊞ ξ and its inverse, T2 ⊟ T1 = log(T1⁻¹ T2): right perturbation.
-[[nodiscard]] inline Se3 plus(const Se3& T, const Vector6& xi) { return T * Se3::exp(xi); }
+[[nodiscard]] inline Se3 plus(const Se3& T, const Vector6& xi) {
+  return T * Se3::exp(xi);
+}
 [[nodiscard]] inline Vector6 minus(const Se3& T2, const Se3& T1) {
   return (T1.inverse() * T2).log();
 }

@@ -26,8 +26,8 @@ struct RectifiedRig {
   double cx = 0.0;
   double cy = 0.0;
   double baseline_m = 0.0;
-  Se3 T_body_left;        // rectified left optical frame
-  Matrix3 R_rawleft_left = Matrix3::Identity();    // rectified ray → ray of the raw camera
+  Se3 T_body_left;                               // rectified left optical frame
+  Matrix3 R_rawleft_left = Matrix3::Identity();  // rectified ray → ray of the raw camera
   Matrix3 R_rawright_right = Matrix3::Identity();
 };
 

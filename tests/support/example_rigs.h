@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geometry/stereo_rig.h"
+
+namespace darkling::test {
+
+// The rig of the EuRoC recordings: 752x480, radial-tangential, about 1.4° between the cameras, its
+// body the IMU. Numbers as published in the recordings' sensor.yaml.
+[[nodiscard]] StereoRig euroc_rig();
+
+// Like the cameras of the TUM-VI recordings: 512x512 fisheyes of 190 px focal length, equidistant,
+// seeing past 90° from the axis in the corners, about a degree between them, 0.101 m apart.
+[[nodiscard]] StereoRig fisheye_rig();
+
+// Like KITTI's rectified grey cameras: 1226x370, f 707.0912 px, baseline 0.537 m, no distortion.
+[[nodiscard]] StereoRig kitti_rig();
+
+}  // namespace darkling::test
