@@ -66,8 +66,8 @@ struct [[nodiscard]] WaitResult {
   WaitStatus status = WaitStatus::kUnknown;
   FrameFault fault = FrameFault::kNone;  // with kBadFrame
   std::int64_t sequence = 0;             // with kBadFrame: the pair that is missing
-  FrameTime stamp;                       // with kBadFrame: when it was taken
-  FrameLease lease;                      // with kFrame
+  FrameTime stamp = {};                  // with kBadFrame: when it was taken
+  FrameLease lease = {};                 // with kFrame
 };
 
 // Counts since start(); every pair of the source is in exactly one of the first four.
