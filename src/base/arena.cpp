@@ -12,13 +12,14 @@ constexpr std::size_t kCacheLine = 64;
 
 Arena::Arena(std::size_t capacity_bytes)
     : block_(static_cast<std::byte*>(
-          ::operator new(capacity_bytes, std::align_val_t{kCacheLine}))),
+          ::operator new (capacity_bytes, std::align_val_t{kCacheLine}, std::nothrow))),
       capacity_bytes_(capacity_bytes) {
+  CHECK(block_ != nullptr, "the machine has no memory for the arena");
   std::memset(block_, 0, capacity_bytes);  // touches every page, so that none is faulted in later
 }
 
 Arena::~Arena() {
-  ::operator delete(block_, std::align_val_t{kCacheLine});
+  ::operator delete (block_, std::align_val_t{kCacheLine});
 }
 
 void* Arena::allocate_bytes(std::size_t bytes, std::size_t alignment, const char* name) {

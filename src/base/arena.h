@@ -3,8 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <new>
 #include <span>
+#include <type_traits>
 
+#include "base/check.h"
 #include "base/image_view.h"
 
 namespace darkling {
@@ -25,16 +29,18 @@ class Arena {
   template <class T>
   [[nodiscard]] std::span<T> allocate(std::size_t count, const char* name) {
     static_assert(std::is_trivially_destructible_v<T>, "the arena never runs destructors");
+    CHECK(count <= std::numeric_limits<std::size_t>::max() / sizeof(T), "a size that wraps round");
     T* first = static_cast<T*>(allocate_bytes(count * sizeof(T), alignof(T), name));
     for (std::size_t i = 0; i < count; ++i) new (first + i) T();
     return {first, count};
   }
 
-  // An image whose rows start on cache lines and may be read up to 64 bytes past their end.
+  // An image whose rows may be read up to 64 bytes past their end, and start on cache lines if the
+  // size of a pixel divides one.
   template <class T>
   [[nodiscard]] ImageView<T> allocate_image(int width, int height, const char* name) {
     CHECK(width > 0 && height > 0, "an image has pixels");
-    constexpr std::size_t kRowAlignment = 64 / sizeof(T);
+    constexpr std::size_t kRowAlignment = (64 + sizeof(T) - 1) / sizeof(T);
     const std::size_t stride = (width + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
     std::span<T> pixels = allocate<T>(stride * height + kRowAlignment, name);
     return {pixels.data(), width, height, static_cast<std::ptrdiff_t>(stride)};
