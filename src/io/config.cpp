@@ -27,6 +27,7 @@ std::string describe_range(const ConfigKey& key) {
   if (std::holds_alternative<bool OdometryConfig::*>(key.field)) return "true or false";
   std::string range = to_text(key.least) + " to " + to_text(key.most);
   if (!key.unit.empty()) range.append(" ").append(key.unit);
+  if (key.may_be_zero) range += " or 0";
   return range;
 }
 
@@ -41,6 +42,10 @@ std::string value_text(const OdometryConfig& config, const ConfigKey& key) {
   return to_text(config.*std::get<double OdometryConfig::*>(key.field));
 }
 
+bool is_allowed(const ConfigKey& key, double value) {
+  return (value >= key.least && value <= key.most) || (key.may_be_zero && value == 0.0);
+}
+
 // @return false when `text` is not a value of the key's type and range.
 bool set_value(OdometryConfig& config, const ConfigKey& key, std::string_view text) {
   if (const auto* field = std::get_if<bool OdometryConfig::*>(&key.field)) {
@@ -49,12 +54,12 @@ bool set_value(OdometryConfig& config, const ConfigKey& key, std::string_view te
   }
   if (const auto* field = std::get_if<int OdometryConfig::*>(&key.field)) {
     const auto value = parse_number<int>(text);
-    if (!value || *value < key.least || *value > key.most) return false;
+    if (!value || !is_allowed(key, *value)) return false;
     config.** field = *value;
     return true;
   }
   const auto value = parse_number<double>(text);
-  if (!value || !(*value >= key.least && *value <= key.most)) return false;
+  if (!value || !is_allowed(key, *value)) return false;
   config.*std::get<double OdometryConfig::*>(key.field) = *value;
   return true;
 }
@@ -133,7 +138,7 @@ Result<void> set_from_file(const std::string& path, Setter& setter) {
 }  // namespace
 
 Result<OdometryConfig> load_config(const std::string& path,
-                                   const std::vector<std::string>& settings) {
+                                   const std::vector<ConfigSetting>& settings) {
   OdometryConfig config;
   if (!path.empty()) {
     Setter setter(config, ExitCode::kConfiguration);
@@ -141,13 +146,12 @@ Result<OdometryConfig> load_config(const std::string& path,
     if (!read) return tl::unexpected(read.error());
   }
   Setter setter(config, ExitCode::kUsage);
-  for (const std::string& setting : settings) {
-    const auto equals = setting.find('=');
+  for (const auto& [option, text] : settings) {
+    const auto equals = text.find('=');
     if (equals == std::string::npos) {
-      return failure(ExitCode::kUsage, "--set '" + setting + "': key=value is needed");
+      return failure(ExitCode::kUsage, option + ": found '" + text + "', key=value is needed");
     }
-    const std::string_view text = setting;
-    const auto set = setter.set("--set: ", text.substr(0, equals), text.substr(equals + 1));
+    const auto set = setter.set(option + ": ", text.substr(0, equals), text.substr(equals + 1));
     if (!set) return tl::unexpected(set.error());
   }
   return config;

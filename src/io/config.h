@@ -20,19 +20,25 @@ struct ConfigKey {
   double least;
   double most;
   std::variant<int OdometryConfig::*, double OdometryConfig::*, bool OdometryConfig::*> field;
-  std::string_view about;  // one sentence
+  std::string_view about;    // one sentence
+  bool may_be_zero = false;  // besides the range: 0 has a meaning of its own
+};
+
+// A key given on the command line.
+struct ConfigSetting {
+  std::string option;  // that it came by, for messages: "--set"
+  std::string text;    // "key=value"
 };
 
 [[nodiscard]] std::span<const ConfigKey> config_keys();
 
 // The defaults, then every key of the file, then every setting. Defaults are OdometryConfig's own.
 // @param path  of a flat YAML map; empty for none.
-// @param settings  `key=value` each.
 // @return kNoInput when the file cannot be read, kConfiguration for what is wrong in it and kUsage
 //         for what is wrong in a setting: a key that is unknown (the nearest known is named) or
 //         comes twice, a value that is no number or out of range. File and line are named.
 [[nodiscard]] Result<OdometryConfig> load_config(const std::string& path,
-                                                 const std::vector<std::string>& settings);
+                                                 const std::vector<ConfigSetting>& settings);
 
 // `config` as a file that load_config() reads back: every key with its unit, range and sentence.
 [[nodiscard]] std::string format_config(const OdometryConfig& config);
