@@ -27,7 +27,9 @@ target_compile_options(darkling_flags INTERFACE
   -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wcast-align -Werror)
 # GCC 12 sees overflows in `"text" + std::string` at -O3 that are not there (GCC bug 105651).
 target_compile_options(darkling_flags INTERFACE
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow -Wno-restrict>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
 # Eigen vectorised differs between machines in the last bit, and asks for aligned members.
 target_compile_definitions(darkling_flags INTERFACE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY)
 target_include_directories(darkling_flags INTERFACE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
