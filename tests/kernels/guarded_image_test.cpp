@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/guarded_image.h"
+
+#include <cstdint>
+
+namespace darkling::test {
+namespace {
+
+constexpr GuardedLayout kPadded = {
+    .width = 5, .height = 3, .row_padding = 3, .distance_to_guard = 9};
+
+TEST(GuardedImage, IsUntouchedWhenOnlyPixelsAreWritten) {
+  GuardedImage<std::uint16_t> image(kPadded);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 5; ++x) image.view().at(x, y) = 0;
+  }
+  EXPECT_TRUE(image.padding_is_untouched());
+}
+
+TEST(GuardedImage, NoticesAWriteOnEverySideOfTheRows) {
+  const struct {
+    const char* side;
+    int x;
+    int y;
+  } writes[] = {
+      {"left of the first row", -1, 0}, {"right of a row", 5, 1}, {"left of a row", -1, 2},
+      {"right of the last row", 5, 2},  {"above", 2, -1},         {"below", 0, 3}};
+  for (const auto& write : writes) {
+    SCOPED_TRACE(write.side);
+    GuardedImage<std::uint8_t> image(kPadded);
+    ASSERT_TRUE(image.padding_is_untouched());
+    std::uint8_t* pixel = image.view().row(write.y) + write.x;
+    *pixel = static_cast<std::uint8_t>(*pixel + 1);
+    EXPECT_FALSE(image.padding_is_untouched());
+  }
+}
+
+TEST(GuardedImage, DiesOnAReadBehindTheLastRow) {
+  GuardedImage<std::uint8_t> image({.width = 5, .height = 3, .row_padding = 3});
+  const volatile std::uint8_t* past = image.view().row(2) + 5;
+  EXPECT_DEATH((void)*past, "");
+}
+
+TEST(GuardedImage, DiesOnAReadBeforeTheFirstRow) {
+  GuardedImage<std::uint8_t> image(
+      {.width = 5, .height = 3, .row_padding = 3, .guard = GuardSide::kBeforeFirstRow});
+  const volatile std::uint8_t* before = image.view().row(0) - 1;
+  EXPECT_DEATH((void)*before, "");
+}
+
+TEST(GuardedImage, StartsWhereTheLayoutSays) {
+  GuardedImage<std::uint8_t> image(
+      {.width = 5, .height = 3, .distance_to_guard = 7, .guard = GuardSide::kBeforeFirstRow});
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(image.view().data) % 64, 7U);
+}
+
+}  // namespace
+}  // namespace darkling::test
