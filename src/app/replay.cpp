@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/replay.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "app/progress_line.h"
+#include "app/verb.h"
+#include "io/run_report.h"
+#include "platform/clocks.h"
+#include "platform/cpu_features.h"
+#include "platform/process_memory.h"
+#include "platform/signals.h"
+#include "vo/odometry.h"
+
+namespace darkling {
+
+namespace {
+
+constexpr Duration kFrameTimeout = std::chrono::milliseconds(200);  // how late a stop may be seen
+
+// A run with everything that can be wrong before its first frame behind it.
+struct Run {
+  KernelTable kernels;
+  Recording recording;
+  std::unique_ptr<Odometry> odometry;
+  std::optional<Trajectory> truth;
+  std::string truth_name;
+  RunOutputs outputs;
+  StatisticsRecorder statistics;
+};
+
+struct Truth {
+  std::optional<Trajectory> trajectory;
+  std::string name;
+};
+
+// The truth the user names, else the recording's own, else none.
+Result<Truth> find_truth(const ReplayOptions& options, const Recording& recording) {
+  const std::string path = options.truth_path.empty() ? recording.truth_path : options.truth_path;
+  if (path.empty()) return Truth{recording.truth, recording.truth ? "exact" : ""};
+  const auto trajectory = read_trajectory(path);
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  return Truth{*trajectory, path};
+}
+
+Result<Run> prepare(const ReplayOptions& options) {
+  const auto config = load_config(options.config_path, options.settings);
+  if (!config) return tl::unexpected(config.error());
+  const auto kernels = select_kernels(options.kernels, detect_cpu_features());
+  if (!kernels) return tl::unexpected(kernels.error());
+  auto recording = open_source(options.source, options.frames);
+  if (!recording) return tl::unexpected(recording.error());
+  auto odometry = Odometry::create(*config, recording->rig, *kernels, read_monotonic_clock);
+  if (!odometry) return tl::unexpected(odometry.error());
+  auto truth = find_truth(options, *recording);
+  if (!truth) return tl::unexpected(truth.error());
+  const auto [frame, key] = truth->trajectory
+                                ? std::pair(truth->trajectory->frame, truth->trajectory->key)
+                                : std::pair(PoseFrame::kLeft, PoseKey::kRow);
+  auto outputs = RunOutputs::open(options.outputs, frame, key);
+  if (!outputs) return tl::unexpected(outputs.error());
+  if (auto started = recording->source->start(); !started) {
+    return tl::unexpected(started.error());
+  }
+  return Run{.kernels = *kernels,
+             .recording = std::move(*recording),
+             .odometry = std::move(*odometry),
+             .truth = std::move(truth->trajectory),
+             .truth_name = std::move(truth->name),
+             .outputs = std::move(*outputs),
+             .statistics = {}};
+}
+
+// One input frame: tracked and timed when there is a pair, else skipped.
+Estimate follow(Run& run, const WaitResult& next) {
+  if (next.status == WaitStatus::kBadFrame) {
+    const Estimate estimate = run.odometry->skip(next.sequence, next.stamp);
+    run.statistics.add_skipped(estimate);
+    return estimate;
+  }
+  const MonotonicTime started_at = read_monotonic_clock();
+  const Estimate estimate = run.odometry->track(next.lease.frame());
+  run.statistics.add_tracked(estimate, read_monotonic_clock() - started_at);
+  return estimate;
+}
+
+Result<void> play(Run& run, Pace pace) {
+  Pacer pacer(pace);
+  ProgressLine progress(run.recording.frame_count);
+  while (!is_stop_requested()) {
+    const WaitResult next = run.recording.source->wait_next(kFrameTimeout);
+    if (next.status == WaitStatus::kEndOfSource) break;
+    if (next.status == WaitStatus::kTimeout) continue;
+    if (next.status == WaitStatus::kDeviceLost) {
+      return failure(ExitCode::kNoInput, run.recording.name + ": cannot be read any further");
+    }
+    const bool is_bad = next.status == WaitStatus::kBadFrame;
+    pacer.wait_for(is_bad ? next.stamp : next.lease.frame().stamp);
+    const Estimate estimate = follow(run, next);
+    run.outputs.append(estimate);
+    progress.show(run.statistics.counts().frames, estimate.status);
+  }
+  return {};
+}
+
+// Without figures for runs too short to compare; those tell nothing about the truth.
+Result<std::optional<Evaluation>> evaluate_run(const Run& run) {
+  constexpr std::size_t kFewestPoses = 3;
+  if (!run.truth || run.outputs.trajectory().poses.size() < kFewestPoses) return std::nullopt;
+  auto evaluation = evaluate(*run.truth, run.outputs.trajectory());
+  if (evaluation) return *evaluation;
+  return failure(evaluation.error().code, run.truth_name + ": " + evaluation.error().message);
+}
+
+RunReport report_run(Run& run, const ReplayOptions& options) {
+  const SourceStats source = run.recording.source->stats();
+  const RectifiedRig& rig = run.odometry->rig();
+  return {.source = options.source,
+          .was_interrupted = is_stop_requested(),
+          .statistics = run.statistics.summarise(),
+          .faults = {.unreadable = source.unreadable,
+                     .wrong_size = source.wrong_size,
+                     .unpaired = source.unpaired,
+                     .stamps_not_increasing = source.stamps_not_increasing},
+          .truth = run.truth_name,
+          .evaluation = std::nullopt,
+          .kernels = run.kernels.name,
+          .width_px = rig.width,
+          .height_px = rig.height,
+          .arena_bytes = static_cast<std::int64_t>(run.odometry->arena_bytes()),
+          .heap_calls_after_start = std::nullopt,
+          .peak_rss_bytes = read_peak_rss_bytes(),
+          .trajectory_sha256 = run.outputs.finish_sha256(),
+          .outputs = run.outputs.describe()};
+}
+
+}  // namespace
+
+Result<int> replay(const ReplayOptions& options) {
+  auto run = prepare(options);
+  if (!run) return tl::unexpected(run.error());
+  catch_stop_signals();
+  const auto played = play(*run, options.pace);
+
+  // Whatever went wrong on the way, what there is gets written and told first.
+  RunReport report = report_run(*run, options);
+  const auto evaluation = evaluate_run(*run);
+  if (evaluation) report.evaluation = *evaluation;
+  const auto closed = run->outputs.close();
+  const auto stats_written = run->outputs.write_stats(format_statistics_json(report));
+  std::fputs(format_summary(report).c_str(), stdout);
+
+  if (!played) return tl::unexpected(played.error());
+  if (!closed) return tl::unexpected(closed.error());
+  if (!stats_written) return tl::unexpected(stats_written.error());
+  if (report.was_interrupted) return kInterruptedStatus;
+  if (!evaluation) return tl::unexpected(evaluation.error());
+  return 0;
+}
+
+}  // namespace darkling

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "app/replay.h"
+#include "app/verb.h"
+#include "io/nearest.h"
+
+namespace darkling {
+
+namespace {
+
+// What was typed.
+struct ReplayWords {
+  std::string source;
+  std::string config_path;
+  std::vector<std::string> settings;
+  std::string width;
+  std::string trajectory_path;
+  std::string format = "kitti";
+  std::string truth_path;
+  std::string stats_path;
+  std::string pace = "fast";
+  std::string kernels = "auto";
+  std::string frames;
+  std::int64_t stride = 1;
+  bool is_config_wanted = false;
+};
+
+// Which of the two `names` was typed for `option`.
+Result<bool> is_first(const char* option, const std::string& word,
+                      const std::array<std::string_view, 2>& names) {
+  if (word == names[0] || word == names[1]) return word == names[0];
+  return failure(ExitCode::kUsage,
+                 std::string(option) + ": found '" + word + "', allowed are " + join_names(names));
+}
+
+Result<ReplayOptions> understand(const ReplayWords& words) {
+  const auto is_tum = is_first("--format", words.format, {"tum", "kitti"});
+  if (!is_tum) return tl::unexpected(is_tum.error());
+  const auto is_fast = is_first("--pace", words.pace, {"fast", "recorded"});
+  if (!is_fast) return tl::unexpected(is_fast.error());
+  if (words.stride < 1) {
+    return failure(ExitCode::kUsage,
+                   "--stride: found " + std::to_string(words.stride) + ", allowed is 1 and more");
+  }
+  OpenOptions frames;
+  frames.stride = words.stride;
+  if (!words.frames.empty()) {
+    const auto range = parse_frame_range(words.frames, frames);
+    if (!range) return tl::unexpected(range.error());
+    frames = *range;
+  }
+  std::vector<ConfigSetting> settings;
+  for (const std::string& text : words.settings) settings.push_back({"--set", text});
+  if (!words.width.empty()) settings.push_back({"--width", "width_px=" + words.width});
+  return ReplayOptions{
+      .source = words.source,
+      .frames = frames,
+      .config_path = words.config_path,
+      .settings = settings,
+      .kernels = words.kernels,
+      .truth_path = words.truth_path,
+      .pace = *is_fast ? Pace::kFast : Pace::kRecorded,
+      .outputs = {.trajectory_path = words.trajectory_path,
+                  .trajectory_format = *is_tum ? TrajectoryFormat::kTum : TrajectoryFormat::kKitti,
+                  .stats_path = words.stats_path}};
+}
+
+Result<int> run(const ReplayWords& words) {
+  const auto options = understand(words);
+  if (!options) return tl::unexpected(options.error());
+  if (words.is_config_wanted) {
+    const auto config = load_config(options->config_path, options->settings);
+    if (!config) return tl::unexpected(config.error());
+    std::fputs(format_config(*config).c_str(), stdout);
+    return 0;
+  }
+  if (words.source.empty()) {
+    return failure(ExitCode::kUsage, "SOURCE is missing\nTry: darkling replay --help");
+  }
+  return replay(*options);
+}
+
+constexpr const char* kMore =
+    "SOURCE is recognised by what it holds:\n"
+    "  a KITTI odometry folder   image_0 image_1 calib.txt times.txt [poses.txt]\n"
+    "  an EuRoC folder           mav0/camN/data.csv with sensor.yaml files, or a Kalibr\n"
+    "                            camchain.yaml beside mav0; truth in\n"
+    "                            mav0/state_groundtruth_estimate0/data.csv or groundtruth.tum\n"
+    "  synthetic:SCENE[,key=value...]  rendered on the fly; `darkling render --help` lists them\n\n"
+    "Trajectories: `kitti` rows are T_world_left of the rectified left camera, the first the\n"
+    "identity, one for every input frame, bad ones included. `tum` rows are T_world_body with the\n"
+    "source's own time stamps. The same input gives the same bytes, whatever the kernels.\n\n"
+    "A run that lost track on the way is done all the same and exits 0: the table says so.\n\n"
+    "Examples:\n"
+    "  darkling replay ~/kitti/06 --width 310 --trajectory 06.txt --stats 06.json\n"
+    "  darkling replay ~/euroc/MH_01_easy --trajectory mh01.tum --format tum\n"
+    "  darkling replay synthetic:mine,frames=200,seed=1\n"
+    "  darkling replay --print-config > rover.yaml\n";
+
+void declare_input(CLI::App& command, ReplayWords& words) {
+  command.add_option("SOURCE", words.source, "The recording to play");
+  command.add_option("--config", words.config_path, "Configuration file (YAML)")->type_name("FILE");
+  command.add_option("--set", words.settings, "One key of the configuration; repeatable")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--width", words.width, "Thumbnail width, height follows; 0: the source's")
+      ->type_name("PX");
+  command.add_option("--frames", words.frames, "Only frames A up to but without B, from 0")
+      ->type_name("A:B");
+  command.add_option("--stride", words.stride, "Only every N-th frame")->type_name("N");
+  command.add_option("--pace", words.pace, "As fast as it goes, or as it was recorded")
+      ->type_name("fast|recorded");
+  command.add_option("--kernels", words.kernels, "Instruction set to compute with")
+      ->type_name("ref|sse41|avx2|neon|auto");
+}
+
+void declare_output(CLI::App& command, ReplayWords& words) {
+  command.add_option("--trajectory", words.trajectory_path, "Write the poses here")
+      ->type_name("FILE");
+  command.add_option("--format", words.format, "Of the trajectory; default kitti")
+      ->type_name("tum|kitti");
+  command
+      .add_option("--truth", words.truth_path, "Compare with this; default: the recording's own")
+      ->type_name("FILE");
+  command.add_option("--stats", words.stats_path, "Write statistics here, as JSON")
+      ->type_name("FILE");
+  command.add_flag("--print-config", words.is_config_wanted,
+                   "Print the configuration that would be used, and stop");
+}
+
+}  // namespace
+
+VerbAction declare_replay(CLI::App& command) {
+  auto words = std::make_shared<ReplayWords>();
+  declare_input(command, *words);
+  declare_output(command, *words);
+  command.footer(kMore);
+  return [words] { return run(*words); };
+}
+
+}  // namespace darkling
