@@ -32,8 +32,8 @@ inline constexpr int kReasonCount = 7;
 // The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
 enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect };
 inline constexpr int kStageCount = 6;
-inline constexpr std::array<const char*, kStageCount> kStageNames = {"rectify", "pyramid", "planes",
-                                                                     "track",   "stereo",  "select"};
+inline constexpr std::array<const char*, kStageCount> kStageNames = {
+    "rectify", "pyramid", "planes", "track", "stereo", "select"};
 
 // What one frame taught: one per input frame, whatever happened to it.
 struct Estimate {
@@ -46,11 +46,11 @@ struct Estimate {
   int reset_counter = 0;                // how often the track was broken and re-anchored
   Se3 T_world_left;                     // accumulated; held or predicted while kLost
   Se3 T_world_body;
-  Se3 T_previous_body;                  // motion since the previous Estimate
-  int point_count = 0;                  // template points of the finest level seen in this frame
-  double visible_fraction = 0.0;        // of the template points, 0…1
-  double cost = 0.0;                    // mean truncated descriptor distance, 0…1, absolute
-  int iterations = 0;                   // of alignment, all levels
+  Se3 T_previous_body;            // motion since the previous Estimate
+  int point_count = 0;            // template points of the finest level seen in this frame
+  double visible_fraction = 0.0;  // of the template points, 0…1
+  double cost = 0.0;              // mean truncated descriptor distance, 0…1, absolute
+  int iterations = 0;             // of alignment, all levels
   std::array<Duration, kStageCount> stage_times = {};
 };
 

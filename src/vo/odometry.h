@@ -22,8 +22,8 @@ class Odometry {
   // @param read_clock  times the stages; results do not depend on it.
   // @return kConfiguration when the rig makes no sense or the thumbnail exceeds vo/limits.h.
   static Result<std::unique_ptr<Odometry>> create(const OdometryConfig& config,
-                                                  const StereoRig& rig,
-                                                  const KernelTable& kernels, ReadClock read_clock);
+                                                  const StereoRig& rig, const KernelTable& kernels,
+                                                  ReadClock read_clock);
   ~Odometry();
 
   // @pre the frame's images have the sizes of the rig's cameras.

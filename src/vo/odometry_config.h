@@ -6,8 +6,8 @@ namespace darkling {
 // What a user may set of the algorithm. Everything else is a named constant beside the code that
 // uses it. Units, ranges and defaults are published by io/config.cpp from one table.
 struct OdometryConfig {
-  int width_px = 320;               // thumbnail width; 0 = the source's
-  int points_per_level = 1000;      // template points at most, each pyramid level
+  int width_px = 320;           // thumbnail width; 0 = the source's
+  int points_per_level = 1000;  // template points at most, each pyramid level
 };
 
 }  // namespace darkling

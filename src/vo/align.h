@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "base/arena.h"
+#include "geometry/se3.h"
+#include "kernels/kernel_table.h"
+#include "vo/frame_pyramid.h"
+#include "vo/keyframe_template.h"
+
+namespace darkling {
+
+// How well a template lies on a frame: on a fixed scale, so that it can be compared between poses,
+// frames and scenes. A scale taken from the residuals would make a wrong pose look good.
+struct AlignmentScore {
+  double cost = 1.0;              // mean of min(distance, kCostTruncation) / kCostTruncation
+  double visible_fraction = 0.0;  // of the template's points, 0…1
+  int visible_count = 0;
+  // What two poses are compared by: points that left the image count half.
+  [[nodiscard]] double rank() const {
+    return visible_fraction * cost + 0.5 * (1.0 - visible_fraction);
+  }
+};
+
+struct Alignment {
+  Se3 T_current_key;
+  AlignmentScore score;        // at the finest level that was aligned
+  int iterations = 0;          // all levels together
+  bool has_converged = false;  // the last step at the finest level was small enough
+  // Normal equations of the finest level at the solution, weighted; their inverse times the
+  // residual variance is the covariance of a right perturbation of T_current_key's inverse.
+  Matrix6 information = Matrix6::Zero();
+};
+
+// Scratch of one alignment: a residual a point.
+struct AlignmentScratch {
+  std::span<PointResidual> residuals;
+};
+[[nodiscard]] AlignmentScratch allocate_alignment_scratch(int points_per_level, Arena& arena);
+
+// Aligns a keyframe's template to the current frame from coarse to fine: Gauss-Newton with the
+// inverse compositional update in disparity space, one robust weight a point.
+//
+// @param guesses  of T_current_key. All are aligned at the coarsest level; the best goes on.
+// @pre at least one guess; template and frame have the same levels.
+// @return an alignment in every case; the score says what it is worth.
+// Source: Alismail, Browning, "Direct disparity space: robust and real-time visual odometry",
+// 2014; Baker, Matthews, "Lucas-Kanade 20 years on", 2004, for the inverse composition.
+[[nodiscard]] Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyframe,
+                                    const FramePyramid& frame, std::span<const Se3> guesses,
+                                    const AlignmentScratch& scratch);
+
+}  // namespace darkling

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "base/arena.h"
+#include "base/fixed_vector.h"
+#include "kernels/kernel_table.h"
+#include "kernels/sample_residuals.h"
+#include "vo/frame_pyramid.h"
+
+namespace darkling {
+
+// The points of a keyframe at one pyramid level.
+struct TemplateLevel {
+  std::span<TemplatePoint> storage;
+  int count = 0;
+  float mean_inverse_depth_focal = 0.0f;  // f / z in px/m: px of image motion a metre sideways
+
+  [[nodiscard]] std::span<const TemplatePoint> points() const {
+    return {storage.data(), static_cast<std::size_t>(count)};
+  }
+};
+
+// What later frames are aligned to.
+struct KeyframeTemplate {
+  FixedVector<TemplateLevel, kMaxLevels> levels;
+  bool is_empty() const { return levels.size() == 0 || levels[0].count == 0; }
+};
+
+// Memory of select_points().
+struct PointSelector {
+  ImageView<std::uint16_t> saliency;
+  struct Candidate {
+    std::uint16_t x;
+    std::uint16_t y;
+    std::uint16_t saliency;
+    float disparity_px;  // at the level it was selected on
+  };
+  std::span<Candidate> candidates;
+};
+
+[[nodiscard]] KeyframeTemplate allocate_template(int level_count, int points_per_level,
+                                                 Arena& arena);
+[[nodiscard]] PointSelector allocate_point_selector(const RectifiedRig& rig, int points_per_level,
+                                                    Arena& arena);
+
+// The pixels of one level that tell most about motion, spread over the image: the most salient one
+// with a known disparity of each cell of a grid with about as many cells as points are wanted.
+// @param disparity  of level 0, in its pixels; kNoDisparity where unknown.
+// @param level      which level `planes` is; its candidates' disparities are in its pixels.
+// @return the candidates, at most as many as `selector` was allocated for.
+std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
+                                                  const PyramidLevel& planes, int level,
+                                                  ImageView<const float> disparity,
+                                                  const PointSelector& selector);
+
+// Turns candidates into template points: reference values, gradients and their Gram matrix.
+void build_template_level(std::span<const PointSelector::Candidate> candidates,
+                          const PyramidLevel& level, double baseline_m, TemplateLevel& out);
+
+}  // namespace darkling

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vo/odometry.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "vo/judge.h"
+#include "vo/odometry_state.h"
+#include "vo/refine_disparity.h"
+
+namespace darkling {
+
+namespace {
+
+// Frames lost in a row after which the keyframe is given up and the present frame becomes one.
+constexpr int kLostFramesBeforeReset = 3;
+// Fewer points with a depth than this do not make a keyframe.
+constexpr int kMinKeyframePoints = 60;
+
+// Adds the time a stage took to its entry.
+class StageTimer {
+ public:
+  StageTimer(Odometry::ReadClock read_clock, Estimate& estimate, Stage stage)
+      : read_clock_(read_clock),
+        time_(estimate.stage_times[static_cast<std::size_t>(stage)]),
+        start_(read_clock()) {}
+  ~StageTimer() { time_ += read_clock_() - start_; }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  Odometry::ReadClock read_clock_;
+  Duration& time_;
+  MonotonicTime start_;
+};
+
+}  // namespace
+
+// Turns the present frame, whose left pyramid is built and whose pose is known, into the keyframe.
+// @return false, and the old keyframe stays, when the pair shows too little depth.
+bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate) {
+  {
+    StageTimer timer(read_clock, estimate, Stage::kRectify);
+    kernels.remap_area(right_map, frame.right, right[0].grey);
+  }
+  {
+    StageTimer timer(read_clock, estimate, Stage::kPlanes);
+    compute_planes(kernels, taps, scratch, right[0]);
+  }
+  {
+    StageTimer timer(read_clock, estimate, Stage::kStereo);
+    (void)match_stereo(kernels, left_codes, codes_of(scratch, right[0]), matcher);
+  }
+  StageTimer timer(read_clock, estimate, Stage::kSelect);
+  for (int l = 0; l < static_cast<int>(left.size()); ++l) {
+    std::span<PointSelector::Candidate> chosen =
+        select_points(kernels, left[l], l, matcher.disparity, selector);
+    if (l == 0) {
+      refine_disparities(left[0], right[0], chosen);
+      chosen = drop_unknown(chosen);
+      if (static_cast<int>(chosen.size()) < kMinKeyframePoints) return false;
+    }
+    build_template_level(chosen, left[l], rig.baseline_m, keyframe.levels[l]);
+  }
+  T_world_key = T_world_previous;
+  estimate.is_keyframe = true;
+  return true;
+}
+
+// Brings the frame's left eye into the shape that everything else works on.
+void Odometry::State::prepare_left(const StereoFrame& frame, Estimate& estimate) {
+  {
+    StageTimer timer(read_clock, estimate, Stage::kRectify);
+    kernels.remap_area(left_map, frame.left, left[0].grey);
+  }
+  {
+    StageTimer timer(read_clock, estimate, Stage::kPyramid);
+    build_pyramid(kernels, left);
+  }
+  StageTimer timer(read_clock, estimate, Stage::kPlanes);
+  for (int l = static_cast<int>(left.size()) - 1; l >= 0; --l) {
+    compute_planes(kernels, taps, scratch, left[l]);
+  }
+  const ImageView<std::uint8_t> codes = codes_of(scratch, left[0]);
+  for (int y = 0; y < codes.height; ++y) {
+    std::copy_n(codes.row(y), codes.width, left_codes.row(y));
+  }
+}
+
+// T_world_left of frame `sequence` if the last measured motion goes on.
+Se3 Odometry::State::predict(std::int64_t sequence) const {
+  const double ratio = static_cast<double>(sequence - previous_sequence) /
+                       static_cast<double>(std::max<std::int64_t>(motion_gap, 1));
+  return T_world_previous * Se3::exp(ratio * T_before_previous.log());
+}
+
+void Odometry::State::accept(const Se3& T_world_left, std::int64_t sequence) {
+  T_before_previous = T_world_previous.inverse() * T_world_left;
+  motion_gap = sequence - previous_sequence;
+  T_world_previous = T_world_left;
+  previous_sequence = sequence;
+  lost_in_a_row = 0;
+}
+
+// Fills what follows from the pose: the body's pose and its motion since the last estimate.
+void Odometry::State::report(const Se3& T_world_left, Estimate& estimate) {
+  const Se3 T_left_body = rig.T_body_left.inverse();
+  estimate.T_world_left = T_world_left;
+  estimate.T_world_body = rig.T_body_left * T_world_left * T_left_body;
+  estimate.T_previous_body =
+      rig.T_body_left * T_world_reported.inverse() * T_world_left * T_left_body;
+  estimate.reset_counter = reset_counter;
+  T_world_reported = T_world_left;
+}
+
+// The frame could not be aligned: hold the pose; after a while start again from here.
+void Odometry::State::lose(const StereoFrame& frame, Estimate& estimate) {
+  estimate.status = TrackStatus::kLost;
+  estimate.quality = -1;
+  T_before_previous = Se3();
+  if (++lost_in_a_row >= kLostFramesBeforeReset && make_keyframe(frame, estimate)) {
+    ++reset_counter;
+    previous_sequence = frame.sequence;
+    lost_in_a_row = 0;
+  }
+  report(T_world_previous, estimate);
+}
+
+Estimate Odometry::track(const StereoFrame& frame) {
+  State& s = *state_;
+  Estimate estimate;
+  estimate.sequence = frame.sequence;
+  estimate.stamp = frame.stamp;
+  s.prepare_left(frame, estimate);
+  if (s.keyframe.is_empty()) return s.start(frame, estimate), estimate;
+
+  const std::array<Se3, 2> guesses = {s.predict(frame.sequence).inverse() * s.T_world_key,
+                                      s.T_world_previous.inverse() * s.T_world_key};
+  Alignment alignment;
+  {
+    StageTimer timer(s.read_clock, estimate, Stage::kTrack);
+    alignment = align_frame(s.kernels, s.keyframe, s.left, guesses, s.alignment_scratch);
+  }
+  const Judgement judgement = judge_alignment(alignment, s.keyframe.levels[0], s.rig.focal_px);
+  estimate.status = judgement.status;
+  estimate.reasons = judgement.reasons;
+  estimate.quality = judgement.quality;
+  estimate.point_count = alignment.score.visible_count;
+  estimate.visible_fraction = alignment.score.visible_fraction;
+  estimate.cost = alignment.score.cost;
+  estimate.iterations = alignment.iterations;
+  if (judgement.status == TrackStatus::kLost) return s.lose(frame, estimate), estimate;
+
+  s.accept(s.T_world_key * alignment.T_current_key.inverse(), frame.sequence);
+  if (judgement.is_keyframe_due) s.make_keyframe(frame, estimate);
+  s.report(s.T_world_previous, estimate);
+  return estimate;
+}
+
+// The first frame with enough depth is the first keyframe, at the pose held so far.
+void Odometry::State::start(const StereoFrame& frame, Estimate& estimate) {
+  previous_sequence = frame.sequence;
+  if (make_keyframe(frame, estimate)) {
+    estimate.status = TrackStatus::kValid;
+    estimate.quality = 100;
+    estimate.visible_fraction = 1.0;
+    estimate.point_count = keyframe.levels[0].count;
+  } else {
+    estimate.status = TrackStatus::kLost;
+    estimate.reasons = kReasonNoDepth;
+    estimate.quality = -1;
+  }
+  report(T_world_previous, estimate);
+}
+
+Estimate Odometry::skip(std::int64_t sequence, FrameTime stamp) {
+  State& s = *state_;
+  Estimate estimate;
+  estimate.sequence = sequence;
+  estimate.stamp = stamp;
+  estimate.status = TrackStatus::kLost;
+  estimate.reasons = kReasonDropped;
+  estimate.quality = -1;
+  s.report(s.keyframe.is_empty() ? s.T_world_previous : s.predict(sequence), estimate);
+  return estimate;
+}
+
+}  // namespace darkling

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/arena.h"
+#include "vo/align.h"
+#include "vo/area_map.h"
+#include "vo/frame_pyramid.h"
+#include "vo/keyframe_template.h"
+#include "vo/match_stereo.h"
+#include "vo/odometry.h"
+
+namespace darkling {
+
+// Each bit-plane is smoothed so far that a motion of a pixel or two still lies on its slope.
+inline constexpr double kPlaneSigmaPx = 1.25;
+
+// What Odometry keeps between frames; all image and point memory is in the arena.
+struct Odometry::State {
+  OdometryConfig config;
+  RectifiedRig rig;
+  const KernelTable kernels;
+  ReadClock read_clock;
+  SmoothingTaps taps;
+  Arena arena;
+
+  AreaMap left_map;
+  AreaMap right_map;
+  FramePyramid left;
+  FramePyramid right;  // level 0 only
+  PlaneScratch scratch;
+  ImageView<std::uint8_t> left_codes;
+  StereoMatcher matcher;
+  PointSelector selector;
+  AlignmentScratch alignment_scratch;
+  KeyframeTemplate keyframe;
+
+  Se3 T_world_key;        // World here: the first rectified left camera
+  Se3 T_world_previous;   // of the last frame that was measured
+  Se3 T_before_previous;  // the motion that led to it
+  Se3 T_world_reported;   // of the last Estimate, measured or not
+  std::int64_t previous_sequence = 0;
+  std::int64_t motion_gap = 1;  // frames that T_before_previous spans
+  int lost_in_a_row = 0;
+  int reset_counter = 0;
+
+  State(const OdometryConfig& config_, const RectifiedRig& rig_, const KernelTable& kernels_,
+        ReadClock read_clock_, std::size_t arena_bytes)
+      : config(config_),
+        rig(rig_),
+        kernels(kernels_),
+        read_clock(read_clock_),
+        taps(make_smoothing_taps(kPlaneSigmaPx)),
+        arena(arena_bytes) {}
+
+  void prepare_left(const StereoFrame& frame, Estimate& estimate);
+  bool make_keyframe(const StereoFrame& frame, Estimate& estimate);
+  void start(const StereoFrame& frame, Estimate& estimate);
+  void lose(const StereoFrame& frame, Estimate& estimate);
+  void accept(const Se3& T_world_left, std::int64_t sequence);
+  void report(const Se3& T_world_left, Estimate& estimate);
+  [[nodiscard]] Se3 predict(std::int64_t sequence) const;
+};
+
+}  // namespace darkling

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vo/refine_disparity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vo/match_stereo.h"
+
+namespace darkling {
+
+namespace {
+
+constexpr int kPatchRadius = 2;
+constexpr int kMaxIterations = 5;
+constexpr float kConvergedStepPx = 0.005f;
+// The matched pixel is right or it is not: refinement that leaves it found something else.
+constexpr float kMaxChangePx = 1.0f;
+
+struct PatchFit {
+  float gr = 0.0f;  // Σ g · r
+  float gg = 0.0f;  // Σ g²
+};
+
+// Compares the patch about the left pixel with the right one at disparity d, along the rows.
+PatchFit compare_patch(const PyramidLevel& left, const PyramidLevel& right, int x, int y, float d) {
+  PatchFit fit;
+  const float start = static_cast<float>(x - kPatchRadius) - d;
+  const int u0 = static_cast<int>(std::floor(start));
+  const float du = start - static_cast<float>(u0);
+  for (int j = -kPatchRadius; j <= kPatchRadius; ++j) {
+    const std::uint8_t* l = left.planes.row(y + j) + (x - kPatchRadius) * kPlaneCount;
+    const std::uint8_t* r = right.planes.row(y + j) + u0 * kPlaneCount;
+    for (int i = 0; i < (2 * kPatchRadius + 1) * kPlaneCount; ++i) {
+      const float value =
+          static_cast<float>(r[i]) + du * static_cast<float>(r[i + kPlaneCount] - r[i]);
+      const float g = 0.5f * static_cast<float>(l[i + kPlaneCount] - l[i - kPlaneCount]);
+      fit.gr += g * (value - static_cast<float>(l[i]));
+      fit.gg += g * g;
+    }
+  }
+  return fit;
+}
+
+float refine(const PyramidLevel& left, const PyramidLevel& right, int x, int y, float d0) {
+  const int width = left.grey.width;
+  if (x < kPatchRadius + 1 || x >= width - kPatchRadius - 1 || y < kPatchRadius ||
+      y >= left.grey.height - kPatchRadius) {
+    return kNoDisparity;
+  }
+  float d = d0;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    if (static_cast<float>(x - kPatchRadius) - d < 0.0f ||
+        static_cast<float>(x + kPatchRadius) - d >= static_cast<float>(width - 2)) {
+      return kNoDisparity;
+    }
+    const PatchFit fit = compare_patch(left, right, x, y, d);
+    if (fit.gg <= 0.0f) return kNoDisparity;
+    const float step = fit.gr / fit.gg;
+    d += step;
+    if (std::abs(d - d0) > kMaxChangePx) return kNoDisparity;
+    if (std::abs(step) < kConvergedStepPx) break;
+  }
+  return std::max(d, 0.0f);
+}
+
+}  // namespace
+
+void refine_disparities(const PyramidLevel& left, const PyramidLevel& right,
+                        std::span<PointSelector::Candidate> candidates) {
+  for (PointSelector::Candidate& candidate : candidates) {
+    candidate.disparity_px = refine(left, right, candidate.x, candidate.y, candidate.disparity_px);
+  }
+}
+
+std::span<PointSelector::Candidate> drop_unknown(std::span<PointSelector::Candidate> candidates) {
+  const auto end =
+      std::remove_if(candidates.begin(), candidates.end(),
+                     [](const PointSelector::Candidate& c) { return c.disparity_px < 0.0f; });
+  return candidates.first(static_cast<std::size_t>(end - candidates.begin()));
+}
+
+}  // namespace darkling
