@@ -7,6 +7,9 @@ find_package(yaml-cpp REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
+if(DARKLING_DESK_TOOL)
+  find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+endif()
 
 # Debian's OpenCVConfig.cmake comes only with the full libopencv-dev; we need four of its libraries.
 find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
