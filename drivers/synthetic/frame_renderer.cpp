@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/synthetic/frame_renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drivers/synthetic/sensor.h"
+#include "geometry/frames.h"
+
+namespace darkling::synthetic {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kFieldOfView_deg = 85.0;  // across, without distortion
+constexpr double kBaseline_m = 0.12;
+constexpr double kPitchDown_deg = 8.0;
+constexpr double kDefaultExposure_ms = 5.0;
+
+// Four samples a pixel, no two in the same row or column, hardly correlated with their order.
+constexpr int kPattern = 4;
+constexpr double kOffsets[kPattern][2] = {
+    {-0.125, -0.375}, {0.375, 0.375}, {-0.375, 0.125}, {0.125, -0.125}};
+constexpr float kFootprint_px = 0.5f;  // each stands for a quarter of the pixel's area
+constexpr int kMostSamples = 16;
+
+}  // namespace
+
+StereoRig make_rig(const SyntheticSpec& spec) {
+  Camera camera;
+  camera.width = spec.width;
+  camera.height = spec.height;
+  camera.fx = camera.fy = 0.5 * spec.width / std::tan(0.5 * kFieldOfView_deg * kDegree);
+  camera.cx = 0.5 * (spec.width - 1);
+  camera.cy = 0.5 * (spec.height - 1);
+  if (spec.distortion > 0.0) {
+    camera.distortion = Distortion::kRadTan;
+    camera.coefficients = {-0.28 * spec.distortion, 0.074 * spec.distortion,
+                           0.0004 * spec.distortion, -0.0003 * spec.distortion};
+  }
+  StereoRig rig;
+  rig.left = rig.right = camera;
+  const Matrix3 R =
+      so3_exp({0, kPitchDown_deg * kDegree, 0}).toRotationMatrix() * R_vehicle_optical();
+  const Matrix3 R_roll = so3_exp({0, 0, spec.roll_right_deg * kDegree}).toRotationMatrix();
+  rig.T_body_rawleft = Se3(R, {0.15, 0.5 * kBaseline_m, 0.42});
+  rig.T_body_rawright = Se3(Matrix3(R * R_roll), {0.15, -0.5 * kBaseline_m, 0.42});
+  return rig;
+}
+
+FrameRenderer::FrameRenderer(const SyntheticSpec& spec)
+    : spec_(spec), rig_(make_rig(spec)), path_(make_path(spec)), scene_(make_scene(spec, path_)) {
+  lenses_[0] = make_lens(rig_.left);
+  lenses_[1] = make_lens(rig_.right);
+}
+
+FrameRenderer::Lens FrameRenderer::make_lens(const Camera& camera) const {
+  Lens lens;
+  const std::size_t count = static_cast<std::size_t>(camera.width) * camera.height;
+  lens.rays.resize(count * kPattern);
+  lens.nearest.resize(count * kPattern);
+  lens.transmission.resize(count);
+  Eigen::Array2d low(1e9, 1e9);
+  Eigen::Array2d high(-1e9, -1e9);
+  for (int s = 0; s < kPattern; ++s) {
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        const auto ray = unproject(camera, {x + kOffsets[s][0], y + kOffsets[s][1]});
+        CHECK(ray.has_value() && ray->z() > 0.1, "every pixel of the lens has a ray");
+        const Eigen::Vector2d r = ray->hnormalized();
+        low = low.min(r.array());
+        high = high.max(r.array());
+        const std::size_t i = static_cast<std::size_t>(y) * camera.width + x;
+        lens.rays[s * count + i] = r.cast<float>();
+        const double cosine = ray->z();
+        lens.transmission[i] =
+            static_cast<float>(1.0 - spec_.vignetting * (1.0 - cosine * cosine * cosine * cosine));
+      }
+    }
+  }
+  // The guide is a plain pinhole image around all rays. A distorted lens finds its facets there;
+  // finer than the image, so that outlines stay within a fraction of a pixel.
+  const double finer = camera.distortion == Distortion::kNone ? 1.0 : 1.25;
+  PinholeView& guide = lens.guide;
+  guide.focal_px = camera.fx * finer;
+  guide.cx = std::ceil(-low.x() * guide.focal_px) + 1.0;
+  guide.cy = std::ceil(-low.y() * guide.focal_px) + 1.0;
+  guide.width = static_cast<int>(guide.cx + std::ceil(high.x() * guide.focal_px)) + 2;
+  guide.height = static_cast<int>(guide.cy + std::ceil(high.y() * guide.focal_px)) + 2;
+  for (std::size_t i = 0; i < lens.rays.size(); ++i) {
+    const double u = lens.rays[i].x() * guide.focal_px + guide.cx;
+    const double v = lens.rays[i].y() * guide.focal_px + guide.cy;
+    lens.nearest[i] =
+        static_cast<int>(std::lround(v)) * guide.width + static_cast<int>(std::lround(u));
+  }
+  return lens;
+}
+
+// More samples where the picture moves by more than ¾ px between two of them.
+int FrameRenderer::sample_count(int frame) const {
+  if (!spec_.blur) return kPattern;
+  const double half_s = 0.5e-3 * spec_.exposure_ms;
+  const Se3 moved = path_.T_scene_body(time_s(frame) - half_s).inverse() *
+                    path_.T_scene_body(time_s(frame) + half_s);
+  const double near_m = 1.0;
+  const double px = rig_.left.fx * (rotation_angle(moved) + moved.translation().norm() / near_m);
+  const int needed = static_cast<int>(std::ceil(px / 0.75 / kPattern)) * kPattern;
+  return std::clamp(needed, kPattern, kMostSamples);
+}
+
+void FrameRenderer::add_sample(const Lens& lens, const Se3& T_scene_eye, const Se3& T_scene_body,
+                               int pattern, Scratch& scratch) const {
+  PinholeView view = lens.guide;
+  view.R_scene_camera = T_scene_eye.R();
+  view.p_scene = T_scene_eye.translation();
+  const std::size_t count = lens.transmission.size();
+  const Eigen::Vector2f* rays = lens.rays.data() + pattern * count;
+  const std::int32_t* nearest = lens.nearest.data() + pattern * count;
+  if (rig_.left.distortion == Distortion::kNone) {
+    // Pixels of the guide are the samples themselves: shift it onto them.
+    const double fx = view.focal_px;
+    view.cx = nearest[0] % view.width - rays[0].x() * fx;
+    view.cy = nearest[0] / view.width - rays[0].y() * fx;
+  }
+  find_visible(scene_.mesh, view, scratch.visible, scratch.projected);
+  Shader::Lamp lamp;
+  lamp.p = (T_scene_body * scene_.headlamp.p_body.cast<double>()).cast<float>();
+  lamp.axis = (T_scene_body.R() * scene_.headlamp.axis_body.cast<double>()).cast<float>();
+  const Shader shader(scene_, view, lamp, kFootprint_px);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int32_t at = nearest[i];
+    scratch.light[i] +=
+        shader.radiance(scratch.visible.triangle[at], rays[i], scratch.visible.inverse_depth[at]);
+  }
+}
+
+std::span<const float> FrameRenderer::render_light(int frame, Eye eye, Scratch& scratch) const {
+  const Lens& lens = lenses_[static_cast<int>(eye)];
+  const Se3& T_body_eye = eye == Eye::kLeft ? rig_.T_body_rawleft : rig_.T_body_rawright;
+  const int samples = sample_count(frame);
+  scratch.light.assign(lens.transmission.size(), 0.0f);
+  for (int i = 0; i < samples; ++i) {
+    const double open_s = spec_.blur ? 1e-3 * spec_.exposure_ms * ((i + 0.5) / samples - 0.5) : 0.0;
+    const Se3 T_scene_body = path_.T_scene_body(time_s(frame) + open_s);
+    add_sample(lens, T_scene_body * T_body_eye, T_scene_body, i % kPattern, scratch);
+  }
+  const float scale = 1.0f / (static_cast<float>(samples) * scene_.middle_grey);
+  for (std::size_t i = 0; i < scratch.light.size(); ++i) {
+    scratch.light[i] *= scale * lens.transmission[i];
+  }
+  return scratch.light;
+}
+
+void FrameRenderer::render(int frame, Eye eye, Scratch& scratch,
+                           ImageView<std::uint8_t> image) const {
+  const std::span<const float> light = render_light(frame, eye, scratch);
+  const Sensor sensor{
+      .electrons_per_grey = spec_.electrons * spec_.exposure_ms / kDefaultExposure_ms,
+      .levels_per_electron = spec_.gain * kMiddleLevel / spec_.electrons,
+      .read_noise_e = spec_.read_noise_e};
+  const std::uint64_t eye_key =
+      mix64(spec_.seed * 4 + static_cast<std::uint64_t>(eye)) + static_cast<std::uint64_t>(frame);
+  const std::uint64_t key = mix64(eye_key);
+  for (int y = 0; y < image.height; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * image.width;
+    expose(sensor, light.subspan(first, image.width), key + first,
+           {image.row(y), static_cast<std::size_t>(image.width)});
+  }
+}
+
+std::optional<Vector3> FrameRenderer::surface_point(double t_s, Eye eye,
+                                                    const Eigen::Vector2d& pixel) const {
+  const bool is_left = eye == Eye::kLeft;
+  const auto ray = unproject(is_left ? rig_.left : rig_.right, pixel);
+  if (!ray) return std::nullopt;
+  const Se3 T_scene_eye =
+      path_.T_scene_body(t_s) * (is_left ? rig_.T_body_rawleft : rig_.T_body_rawright);
+  const Vector3 origin = T_scene_eye.translation();
+  const Vector3 direction = T_scene_eye.R() * *ray;
+  double nearest = 1e9;
+  for (const Triangle& t : scene_.mesh.triangles) {
+    const Vector3 n = t.n.cast<double>();
+    const double towards = n.dot(direction);
+    if (towards >= 0.0) continue;
+    const Vector3 corner = scene_.mesh.vertices[t.corner[0]].p.cast<double>();
+    const double distance = n.dot(corner - origin) / towards;
+    if (distance <= 0.0 || distance >= nearest) continue;
+    const Vector3 q = origin + distance * direction - corner;
+    const double b1 = q.dot(t.dual_1.cast<double>());
+    const double b2 = q.dot(t.dual_2.cast<double>());
+    if (b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0) nearest = distance;
+  }
+  if (nearest >= 1e9) return std::nullopt;
+  return origin + nearest * direction;
+}
+
+}  // namespace darkling::synthetic

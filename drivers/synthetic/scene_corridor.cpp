@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/synthetic/scene.h"
+namespace darkling::synthetic {
+Scene make_corridor(const RoverPath& path, std::uint32_t seed) {
+  return make_mine(path, seed);
+}
+}  // namespace darkling::synthetic

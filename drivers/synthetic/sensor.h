@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace darkling::synthetic {
+
+// Level of a pixel without light and noise: keeps the read noise from being cut off at 0.
+inline constexpr double kBlackLevel = 3.0;
+// The level that mid-grey is recorded as with the default exposure and gain, above black.
+inline constexpr double kMiddleLevel = 125.0;
+
+// An image sensor with linear response and an 8-bit converter.
+struct Sensor {
+  double electrons_per_grey = 4000.0;  // collected from radiance `middle grey` in this exposure
+  double levels_per_electron = 0.03;   // after the amplifier
+  double read_noise_e = 8.0;           // standard deviation
+};
+
+// Exposes one row.
+//
+//   level = black + levels_per_electron · (Poisson(electrons) + Normal(0, read_noise)),
+//
+// rounded to the nearest and clipped to 0…255.
+//
+// @param light  radiance over middle grey, lens losses included.
+// @param key    chooses the noise: the same key and pixel, the same noise.
+void expose(const Sensor& sensor, std::span<const float> light, std::uint64_t key,
+            std::span<std::uint8_t> levels);
+
+}  // namespace darkling::synthetic
