@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/example_rigs.h"
 
+#include <numbers>
+
 #include "geometry/frames.h"
 
 namespace darkling::test {
@@ -88,6 +90,39 @@ StereoRig kitti_rig() {
   rig.T_body_rawright =
       rig.T_body_rawleft * Se3(Matrix3(Matrix3::Identity()), Vector3(0.537150, 0.0, 0.0));
   return rig;
+}
+
+StereoRig upside_down_rig() {
+  StereoRig rig = euroc_rig();
+  // Turned about the body's z axis, which EuRoC's cameras look along.
+  const Se3 T_turned_body(so3_exp(Vector3(0.0, 0.0, std::numbers::pi)), Vector3(0.1, 0.2, 0.3));
+  rig.T_body_rawleft = T_turned_body * rig.T_body_rawleft;
+  rig.T_body_rawright = T_turned_body * rig.T_body_rawright;
+  return rig;
+}
+
+StereoRig toed_in_rig() {
+  StereoRig rig;
+  rig.left = {.width = 640,
+              .height = 480,
+              .fx = 500.0,
+              .fy = 500.0,
+              .cx = 319.5,
+              .cy = 239.5,
+              .distortion = Distortion::kNone,
+              .coefficients = {}};
+  rig.right = rig.left;
+  const double half_rad = 2.0 * std::numbers::pi / 180.0;
+  const Se3 T_body_midway(R_vehicle_optical(), Vector3::Zero());
+  rig.T_body_rawleft =
+      T_body_midway * Se3(so3_exp(Vector3(0.0, half_rad, 0.0)), Vector3(-0.1, 0.0, 0.0));
+  rig.T_body_rawright =
+      T_body_midway * Se3(so3_exp(Vector3(0.0, -half_rad, 0.0)), Vector3(0.1, 0.0, 0.0));
+  return rig;
+}
+
+Vector3 rectified_ray(const RectifiedRig& rig, double u, double v) {
+  return {(u - rig.cx) / rig.focal_px, (v - rig.cy) / rig.focal_px, 1.0};
 }
 
 }  // namespace darkling::test

@@ -16,4 +16,13 @@ namespace darkling::test {
 // Like KITTI's rectified grey cameras: 1226x370, f 707.0912 px, baseline 0.537 m, no distortion.
 [[nodiscard]] StereoRig kitti_rig();
 
+// The EuRoC cameras, the pair mounted upside down: still left of right in the images.
+[[nodiscard]] StereoRig upside_down_rig();
+
+// Two pinholes of 640x480 that look 4° towards each other, 0.2 m apart.
+[[nodiscard]] StereoRig toed_in_rig();
+
+// A pixel's ray in the rectified left (or right) frame, z = 1.
+[[nodiscard]] Vector3 rectified_ray(const RectifiedRig& rig, double u, double v);
+
 }  // namespace darkling::test
