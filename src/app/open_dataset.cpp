@@ -114,7 +114,8 @@ Result<Recording> open_euroc(const std::string& folder, const OpenOptions& optio
   Recording recording;
   recording.name = name_of(folder);
   recording.kind = "EuRoC";
-  recording.calibration_path = choice->path;
+  recording.calibration_path =
+      choice->is_kalibr ? choice->path : choice->path + "/cam0/sensor.yaml";
   recording.truth_path = first_that_exists(
       {mav0 + "/state_groundtruth_estimate0/data.csv", folder + "/groundtruth.tum"});
   const auto rig = load_chosen(*choice);
@@ -124,9 +125,9 @@ Result<Recording> open_euroc(const std::string& folder, const OpenOptions& optio
   if (!size) return tl::unexpected(size.error());
   const ImageSize calibrated{rig->left.width, rig->left.height};
   if (*size != calibrated) {
-    return failure(ExitCode::kConfiguration, folder + ": the images are " + to_text(*size) +
-                                                 " px, the calibration in " + choice->path +
-                                                 " is for " + to_text(calibrated) + " px");
+    return failure(ExitCode::kConfiguration,
+                   folder + ": the images are " + to_text(*size) + " px, the calibration in " +
+                       recording.calibration_path + " is for " + to_text(calibrated) + " px");
   }
   play(std::move(*selected), *size, recording);
   return recording;

@@ -17,6 +17,8 @@ enum class DatasetLayout { kKitti, kEuroc };
 
 [[nodiscard]] Result<Recording> open_kitti(const std::string& folder, const OpenOptions& options);
 [[nodiscard]] Result<Recording> open_euroc(const std::string& folder, const OpenOptions& options);
+// @param text  "synthetic:SCENE[,key=value…]".
+[[nodiscard]] Result<Recording> open_synthetic(std::string_view text, const OpenOptions& options);
 
 // Why `path` is not opened: absent, empty, a file or a folder of something else; with the folder
 // that was perhaps meant.

@@ -29,6 +29,7 @@ Result<Recording> open_source(std::string_view text, const OpenOptions& options)
                        " with stride " + std::to_string(options.stride) +
                        ": allowed are 0 <= first < last and a stride of at least 1");
   }
+  if (text.starts_with("synthetic:")) return open_synthetic(text, options);
   std::string folder(text);
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const auto layout = recognise_layout(folder);
