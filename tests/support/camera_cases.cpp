@@ -35,6 +35,8 @@ std::vector<CameraCase> camera_cases() {
       {"RadTanWithoutCoefficients", vga(kRadTan, {}, 300.0), 1.5, true},
       {"RadTanPincushion", vga(kRadTan, {0.2, 0.05, 0.0, 0.0}, 400.0), 1.5, true},
       {"RadTanTiltedSensor", vga(kRadTan, {-0.1, 0.05, 0.01, -0.02}, 400.0), 1.1, true},
+      // Slope 0.007 at r = 1.29: nearly flat there, but it rises again.
+      {"RadTanNearlyFolding", vga(kRadTan, {-0.4, 0.0725, 0.0, 0.0}, 300.0), 1.4, true},
       {"RadTanFolding", vga(kRadTan, {-0.4, 0.0, 0.0, 0.0}, 300.0), radtan_fold_rad, false},
       {"RadTanFoldingTilted", vga(kRadTan, {-0.4, 0.0, 0.001, -0.002}, 300.0),
        0.97 * radtan_fold_rad, false},

@@ -121,6 +121,26 @@ StereoRig toed_in_rig() {
   return rig;
 }
 
+StereoRig folding_radtan_rig() {
+  StereoRig rig = toed_in_rig();
+  for (Camera* camera : {&rig.left, &rig.right}) {
+    camera->fx = camera->fy = 300.0;
+    camera->distortion = Distortion::kRadTan;
+    camera->coefficients = {-0.4, 0.0, 0.0, 0.0};  // folds 183 px from the principal point
+  }
+  return rig;
+}
+
+StereoRig folding_fisheye_rig() {
+  StereoRig rig = toed_in_rig();
+  for (Camera* camera : {&rig.left, &rig.right}) {
+    camera->fx = camera->fy = 300.0;
+    camera->distortion = Distortion::kEquidistant;
+    camera->coefficients = {-0.5, 0.0, 0.0, 0.0};  // folds 163 px from it, 47° off the axis
+  }
+  return rig;
+}
+
 Vector3 rectified_ray(const RectifiedRig& rig, double u, double v) {
   return {(u - rig.cx) / rig.focal_px, (v - rig.cy) / rig.focal_px, 1.0};
 }

@@ -22,6 +22,10 @@ namespace darkling::test {
 // Two pinholes of 640x480 that look 4° towards each other, 0.2 m apart.
 [[nodiscard]] StereoRig toed_in_rig();
 
+// The same pair with lenses whose model folds back on itself inside the image.
+[[nodiscard]] StereoRig folding_radtan_rig();
+[[nodiscard]] StereoRig folding_fisheye_rig();
+
 // A pixel's ray in the rectified left (or right) frame, z = 1.
 [[nodiscard]] Vector3 rectified_ray(const RectifiedRig& rig, double u, double v);
 

@@ -136,6 +136,17 @@ TEST(CheckRig, RefusesABaselineFarOffTheRows) {
   EXPECT_EQ(refusal(rig_with_baseline({0.11, 0.05, 0.0})), "");
 }
 
+// With the cameras rolled 28° against each other, the rows are taken half-way, at 14°.
+TEST(CheckRig, MeasuresTheSlantHalfWayBetweenTheCameras) {
+  const auto slanted_by = [](double slant_deg) {
+    const double slant = kRadians * slant_deg;
+    return rig_with(Se3(so3_exp(Vector3(0.0, 0.0, 28.0 * kRadians)),
+                        0.11 * Vector3(std::cos(slant), std::sin(slant), 0.0)));
+  };
+  EXPECT_EQ(refusal(slanted_by(20.0)), "");
+  EXPECT_THAT(refusal(slanted_by(-20.0)), HasSubstr("the baseline is 34° off"));
+}
+
 TEST(CheckRig, RefusesCamerasTurnedFarAgainstEachOther) {
   EXPECT_EQ(refusal(rig_turned_by({0.0, 29.0, 0.0})), "");
   EXPECT_THAT(refusal(rig_turned_by({0.0, 31.0, 0.0})), HasSubstr("turned 31° against"));

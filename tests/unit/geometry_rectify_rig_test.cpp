@@ -52,6 +52,8 @@ INSTANTIATE_TEST_SUITE_P(Every, AnyRig,
                                          RigCase{"Fisheye", fisheye_rig, 256},
                                          RigCase{"UpsideDown", upside_down_rig, 240},
                                          RigCase{"ToedIn", toed_in_rig, 320},
+                                         RigCase{"FoldingRadTan", folding_radtan_rig, 160},
+                                         RigCase{"FoldingFisheye", folding_fisheye_rig, 160},
                                          RigCase{"KittiAtSourceWidth", kitti_rig, 0}),
                          [](const auto& one) { return one.param.name; });
 
