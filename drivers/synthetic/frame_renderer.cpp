@@ -19,8 +19,7 @@ constexpr double kPitchDown_deg = 8.0;
 constexpr double kDefaultExposure_ms = 5.0;
 
 // Four samples a pixel, no two in the same row or column, hardly correlated with their order.
-constexpr int kPattern = 4;
-constexpr double kOffsets[kPattern][2] = {
+constexpr double kOffsets[kMoments][2] = {
     {-0.125, -0.375}, {0.375, 0.375}, {-0.375, 0.125}, {0.125, -0.125}};
 constexpr float kFootprint_px = 0.5f;  // each stands for a quarter of the pixel's area
 constexpr int kMostSamples = 16;
@@ -58,12 +57,12 @@ FrameRenderer::FrameRenderer(const SyntheticSpec& spec)
 FrameRenderer::Lens FrameRenderer::make_lens(const Camera& camera) const {
   Lens lens;
   const std::size_t count = static_cast<std::size_t>(camera.width) * camera.height;
-  lens.rays.resize(count * kPattern);
-  lens.nearest.resize(count * kPattern);
+  lens.rays.resize(count * kMoments);
+  lens.nearest.resize(count * kMoments);
   lens.transmission.resize(count);
   Eigen::Array2d low(1e9, 1e9);
   Eigen::Array2d high(-1e9, -1e9);
-  for (int s = 0; s < kPattern; ++s) {
+  for (int s = 0; s < kMoments; ++s) {
     for (int y = 0; y < camera.height; ++y) {
       for (int x = 0; x < camera.width; ++x) {
         const auto ray = unproject(camera, {x + kOffsets[s][0], y + kOffsets[s][1]});
@@ -99,39 +98,65 @@ FrameRenderer::Lens FrameRenderer::make_lens(const Camera& camera) const {
 
 // More samples where the picture moves by more than ¾ px between two of them.
 int FrameRenderer::sample_count(int frame) const {
-  if (!spec_.blur) return kPattern;
+  if (!spec_.blur) return kMoments;
   const double half_s = 0.5e-3 * spec_.exposure_ms;
   const Se3 moved = path_.T_scene_body(time_s(frame) - half_s).inverse() *
                     path_.T_scene_body(time_s(frame) + half_s);
   const double near_m = 1.0;
   const double px = rig_.left.fx * (rotation_angle(moved) + moved.translation().norm() / near_m);
-  const int needed = static_cast<int>(std::ceil(px / 0.75 / kPattern)) * kPattern;
-  return std::clamp(needed, kPattern, kMostSamples);
+  const int needed = static_cast<int>(std::ceil(px / 0.75 / kMoments)) * kMoments;
+  return std::clamp(needed, kMoments, kMostSamples);
 }
 
-void FrameRenderer::add_sample(const Lens& lens, const Se3& T_scene_eye, const Se3& T_scene_body,
-                               int pattern, Scratch& scratch) const {
-  PinholeView view = lens.guide;
+Shader::Moment FrameRenderer::make_moment(const Lens& lens, const Se3& T_body_eye, double t_s,
+                                          int pattern) const {
+  const Se3 T_scene_body = path_.T_scene_body(t_s);
+  const Se3 T_scene_eye = T_scene_body * T_body_eye;
+  Shader::Moment moment;
+  PinholeView& view = moment.view;
+  view = lens.guide;
   view.R_scene_camera = T_scene_eye.R();
   view.p_scene = T_scene_eye.translation();
-  const std::size_t count = lens.transmission.size();
-  const Eigen::Vector2f* rays = lens.rays.data() + pattern * count;
-  const std::int32_t* nearest = lens.nearest.data() + pattern * count;
   if (rig_.left.distortion == Distortion::kNone) {
     // Pixels of the guide are the samples themselves: shift it onto them.
-    const double fx = view.focal_px;
-    view.cx = nearest[0] % view.width - rays[0].x() * fx;
-    view.cy = nearest[0] / view.width - rays[0].y() * fx;
+    const std::size_t first = pattern * lens.transmission.size();
+    view.cx = lens.nearest[first] % view.width - lens.rays[first].x() * view.focal_px;
+    view.cy = lens.nearest[first] / view.width - lens.rays[first].y() * view.focal_px;
   }
-  find_visible(scene_.mesh, view, scratch.visible, scratch.projected);
-  Shader::Lamp lamp;
-  lamp.p = (T_scene_body * scene_.headlamp.p_body.cast<double>()).cast<float>();
-  lamp.axis = (T_scene_body.R() * scene_.headlamp.axis_body.cast<double>()).cast<float>();
-  const Shader shader(scene_, view, lamp, kFootprint_px);
+  moment.lamp = (T_scene_body * scene_.headlamp.p_body.cast<double>()).cast<float>();
+  moment.lamp_axis = (T_scene_body.R() * scene_.headlamp.axis_body.cast<double>()).cast<float>();
+  return moment;
+}
+
+void FrameRenderer::add_samples(const Lens& lens,
+                                const std::array<Shader::Moment, kMoments>& moments,
+                                Scratch& scratch) const {
+  for (int k = 0; k < kMoments; ++k) {
+    find_visible(scene_.mesh, moments[k].view, scratch.visible[k], scratch.projected);
+  }
+  const Shader shader(scene_, moments, kFootprint_px);
+  const std::size_t count = lens.transmission.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t at = nearest[i];
-    scratch.light[i] +=
-        shader.radiance(scratch.visible.triangle[at], rays[i], scratch.visible.inverse_depth[at]);
+    std::array<PixelSample, kMoments> samples;
+    std::array<std::int32_t, kMoments> seen;
+    for (int k = 0; k < kMoments; ++k) {
+      const std::size_t at = lens.nearest[k * count + i];
+      seen[k] = scratch.visible[k].triangle[at];
+      samples[k] = {k, lens.rays[k * count + i], scratch.visible[k].inverse_depth[at]};
+    }
+    // Samples of the same facet are shaded together.
+    for (int first = 0; first < kMoments;) {
+      int end = first + 1;
+      for (int k = end; k < kMoments; ++k) {
+        if (seen[k] != seen[first]) continue;
+        std::swap(seen[k], seen[end]);
+        std::swap(samples[k], samples[end]);
+        ++end;
+      }
+      const std::span<const PixelSample> same(samples.data() + first, samples.data() + end);
+      scratch.light[i] += static_cast<float>(end - first) * shader.radiance(seen[first], same);
+      first = end;
+    }
   }
 }
 
@@ -139,11 +164,17 @@ std::span<const float> FrameRenderer::render_light(int frame, Eye eye, Scratch& 
   const Lens& lens = lenses_[static_cast<int>(eye)];
   const Se3& T_body_eye = eye == Eye::kLeft ? rig_.T_body_rawleft : rig_.T_body_rawright;
   const int samples = sample_count(frame);
+  const double open_s = spec_.blur ? 1e-3 * spec_.exposure_ms : 0.0;
   scratch.light.assign(lens.transmission.size(), 0.0f);
-  for (int i = 0; i < samples; ++i) {
-    const double open_s = spec_.blur ? 1e-3 * spec_.exposure_ms * ((i + 0.5) / samples - 0.5) : 0.0;
-    const Se3 T_scene_body = path_.T_scene_body(time_s(frame) + open_s);
-    add_sample(lens, T_scene_body * T_body_eye, T_scene_body, i % kPattern, scratch);
+  for (int first = 0; first < samples; first += kMoments) {
+    std::array<Shader::Moment, kMoments> moments;
+    for (int k = 0; k < kMoments; ++k) {
+      // The moments of a batch are spread over the whole exposure, between those of the others.
+      const int order = k * (samples / kMoments) + first / kMoments;
+      const double t_s = time_s(frame) + open_s * ((order + 0.5) / samples - 0.5);
+      moments[k] = make_moment(lens, T_body_eye, t_s, k);
+    }
+    add_samples(lens, moments, scratch);
   }
   const float scale = 1.0f / (static_cast<float>(samples) * scene_.middle_grey);
   for (std::size_t i = 0; i < scratch.light.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,7 +25,7 @@ enum class Eye { kLeft = 0, kRight = 1 };
 class FrameRenderer {
  public:
   struct Scratch {
-    VisibilityBuffer visible;
+    std::array<VisibilityBuffer, kMoments> visible;
     std::vector<ProjectedVertex> projected;
     std::vector<float> light;
   };
@@ -56,8 +57,11 @@ class FrameRenderer {
   };
   [[nodiscard]] Lens make_lens(const Camera& camera) const;
   [[nodiscard]] int sample_count(int frame) const;
-  void add_sample(const Lens& lens, const Se3& T_scene_eye, const Se3& T_scene_body, int pattern,
-                  Scratch& scratch) const;
+  [[nodiscard]] Shader::Moment make_moment(const Lens& lens, const Se3& T_body_eye, double t_s,
+                                           int pattern) const;
+  // Adds kMoments samples to every pixel of scratch.light.
+  void add_samples(const Lens& lens, const std::array<Shader::Moment, kMoments>& moments,
+                   Scratch& scratch) const;
 
   SyntheticSpec spec_;
   StereoRig rig_;

@@ -12,9 +12,9 @@ float fade(float t) {
   return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
 
+// @pre -period <= i < 2 · period.
 int wrap(int i, int period) {
-  const int r = i % period;
-  return r < 0 ? r + period : r;
+  return i < 0 ? i + period : (i >= period ? i - period : i);
 }
 
 // The dot product of (x, y, z) with one of the twelve edge directions of a cube.
@@ -25,22 +25,30 @@ float edge_gradient(std::uint32_t h, float x, float y, float z) {
   return ((k & 1u) != 0u ? -a : a) + ((k & 2u) != 0u ? -b : b);
 }
 
+// The dot product of (x, y) with a direction taken from the hash; lengths up to √2.
+float plane_gradient(std::uint32_t h, float x, float y) {
+  const auto gx = static_cast<float>(static_cast<int>(h & 0xffffu) - 0x8000);
+  const auto gy = static_cast<float>(static_cast<int>(h >> 16) - 0x8000);
+  return (gx * x + gy * y) * (1.6f / 32768.0f);
+}
+
 // One octave of wrapping gradient noise; `period` lattice cells across the unit square.
+// @pre 0 <= u, v <= 1.
 float tiling_octave(float u, float v, int period, std::uint32_t seed) {
   const float x = u * static_cast<float>(period);
   const float y = v * static_cast<float>(period);
-  const float fx = std::floor(x);
-  const float fy = std::floor(y);
-  const int x0 = wrap(static_cast<int>(fx), period);
-  const int y0 = wrap(static_cast<int>(fy), period);
+  const int ix = static_cast<int>(x);
+  const int iy = static_cast<int>(y);
+  const int x0 = wrap(ix, period);
+  const int y0 = wrap(iy, period);
   const int x1 = wrap(x0 + 1, period);
   const int y1 = wrap(y0 + 1, period);
-  const float dx = x - fx;
-  const float dy = y - fy;
-  const float a = edge_gradient(hash3(x0, y0, 0, seed), dx, dy, 0.0f);
-  const float b = edge_gradient(hash3(x1, y0, 0, seed), dx - 1.0f, dy, 0.0f);
-  const float c = edge_gradient(hash3(x0, y1, 0, seed), dx, dy - 1.0f, 0.0f);
-  const float d = edge_gradient(hash3(x1, y1, 0, seed), dx - 1.0f, dy - 1.0f, 0.0f);
+  const float dx = x - static_cast<float>(ix);
+  const float dy = y - static_cast<float>(iy);
+  const float a = plane_gradient(hash3(x0, y0, 0, seed), dx, dy);
+  const float b = plane_gradient(hash3(x1, y0, 0, seed), dx - 1.0f, dy);
+  const float c = plane_gradient(hash3(x0, y1, 0, seed), dx, dy - 1.0f);
+  const float d = plane_gradient(hash3(x1, y1, 0, seed), dx - 1.0f, dy - 1.0f);
   const float s = fade(dx);
   return lerp(lerp(a, b, s), lerp(c, d, s), fade(dy));
 }
@@ -86,6 +94,8 @@ float fractal_noise(const Vec3f& p, int octaves, float persistence, std::uint32_
 
 float tiling_noise(float u, float v, int period, int octaves, float persistence,
                    std::uint32_t seed) {
+  u -= std::floor(u);
+  v -= std::floor(v);
   float sum = 0.0f;
   float height = 1.0f;
   for (int i = 0; i < octaves; ++i) {
@@ -96,8 +106,8 @@ float tiling_noise(float u, float v, int period, int octaves, float persistence,
 }
 
 Cell tiling_cells(float u, float v, int period, std::uint32_t seed) {
-  const float x = u * static_cast<float>(period);
-  const float y = v * static_cast<float>(period);
+  const float x = (u - std::floor(u)) * static_cast<float>(period);
+  const float y = (v - std::floor(v)) * static_cast<float>(period);
   const int cx = static_cast<int>(std::floor(x));
   const int cy = static_cast<int>(std::floor(y));
   float nearest = 1e9f;

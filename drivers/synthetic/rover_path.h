@@ -26,7 +26,7 @@ struct WayShape {
   double swing_deg = 24.0;      // winding: how far the heading swings
   double correction_deg = 7.0;  // the driver's small corrections
   double lead_m = 4.0;          // way before the start and …
-  double beyond_m = 25.0;       // … beyond the end, to build the scene along
+  double beyond_m = 16.0;       // … beyond the end, to build the scene along
 };
 
 // The motion of a rover: a way over the ground, a speed along it with stops, bumps that pitch,

@@ -14,8 +14,8 @@ namespace {
 
 enum MineMaterial { kRock, kFloor, kTimber, kRail };
 
-constexpr float kRing_m = 0.06f;  // between rings of the tube
-constexpr int kRingPoints = 144;  // around, about 6 cm apart
+constexpr float kRing_m = 0.075f;  // between rings of the tube
+constexpr int kRingPoints = 120;   // around, about 7 cm apart
 constexpr float kHalfWidth_m = 1.35f;
 constexpr float kAxisHeight_m = 1.05f;  // of the ring's centre above the floor
 constexpr float kCrown_m = 1.15f;       // from there to the roof

@@ -69,13 +69,15 @@ Texture rock_surface(std::uint32_t seed) {
     const Cell chip = tiling_cells(warp_u, warp_v, 40, seed + 41);
     const float crack = 1.0f - smooth_step(0.0f, 0.06f, block.second - block.nearest);
     const float fine_crack = 1.0f - smooth_step(0.0f, 0.10f, chip.second - chip.nearest);
-    const float quartz = vein(tiling_noise(u, v, 4, 4, 0.5f, seed + 50), 0.035f);
+    const float quartz = vein(tiling_noise(u, v, 4, 6, 0.6f, seed + 50), 0.03f) *
+                         smooth_step(0.0f, 0.6f, tiling_noise(u, v, 3, 2, 0.5f, seed + 51));
     Spot spot;
-    spot.albedo = 0.42f + 0.17f * mottle + 0.16f * (unit_float(block.id) - 0.5f) +
-                  0.12f * (unit_float(chip.id) - 0.5f) + 0.22f * quartz;
-    spot.albedo *= (1.0f - 0.55f * crack) * (1.0f - 0.3f * fine_crack);
-    spot.height_m = 0.012f * mottle - 0.010f * crack - 0.003f * fine_crack +
-                    0.012f * (unit_float(block.id) - 0.5f);
+    spot.albedo = 0.42f + 0.17f * mottle + 0.09f * (unit_float(block.id) - 0.5f) +
+                  0.06f * (unit_float(chip.id) - 0.5f) + 0.22f * quartz;
+    const float open = smooth_step(-0.2f, 0.5f, tiling_noise(u, v, 6, 2, 0.5f, seed + 60));
+    spot.albedo *= (1.0f - 0.45f * open * crack) * (1.0f - 0.25f * open * fine_crack);
+    spot.height_m = 0.016f * mottle - 0.008f * open * crack - 0.002f * open * fine_crack +
+                    0.010f * open * (unit_float(block.id) - 0.5f);
     return spot;
   });
 }

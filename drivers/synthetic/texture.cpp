@@ -2,6 +2,7 @@
 #include "drivers/synthetic/texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/check.h"
@@ -20,9 +21,21 @@ std::uint8_t to_byte(float x) {
 
 // log2 of a positive float, wrong by at most 0.09: enough to choose a level of the pyramid.
 float rough_log2(float x) {
-  int exponent = 0;
-  const float mantissa = std::frexp(x, &exponent);  // 0.5…1
-  return static_cast<float>(exponent) + 2.0f * (mantissa - 1.0f);
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  return static_cast<float>(bits) * (1.0f / 8388608.0f) - 127.0f;
+}
+
+// std::floor is a call into the mathematics library where the processor's rounding instruction may
+// not be taken for granted.
+int floor_to_int(float x) {
+  const int i = static_cast<int>(x);
+  return i - (static_cast<float>(i) > x ? 1 : 0);
+}
+
+// Spreads four bytes over four lanes of 16 bits: lanes 0, 2, 1, 3 of the texel.
+std::uint64_t spread(std::uint32_t texel) {
+  constexpr std::uint32_t kEven = 0x00ff00ffu;
+  return (texel & kEven) | (static_cast<std::uint64_t>((texel >> 8) & kEven) << 32);
 }
 
 std::vector<float> halve(const std::vector<float>& values, int size) {
@@ -73,65 +86,62 @@ Texture::Texture(int size, float extent_m, const std::vector<float>& albedo,
 }
 
 void Texture::add_level(int size, const std::vector<float>& values) {
-  Level level{size, std::vector<Texel>(static_cast<std::size_t>(size) * size)};
-  for (std::size_t i = 0; i < level.texels.size(); ++i) {
-    const float* v = &values[i * kChannels];
-    level.texels[i] = {{to_byte(255.0f * v[0]), to_byte(128.0f + kSlopeScale * v[1]),
-                        to_byte(128.0f + kSlopeScale * v[2]), 0}};
+  Level level{size, static_cast<float>(size) / extent_m_, {}};
+  level.texels.resize(level.place(size - 1, size - 1) + 1);
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const float* v = &values[(static_cast<std::size_t>(y) * size + x) * kChannels];
+      level.texels[level.place(x, y)] =
+          static_cast<std::uint32_t>(to_byte(255.0f * v[0])) |
+          static_cast<std::uint32_t>(to_byte(128.0f + kSlopeScale * v[1])) << 8 |
+          static_cast<std::uint32_t>(to_byte(128.0f + kSlopeScale * v[2])) << 16;
+    }
   }
   levels_.push_back(std::move(level));
 }
 
-void Texture::add_bilinear(const Level& level, float u, float v, float weight, float* sum) const {
-  const float scale = static_cast<float>(level.size) / extent_m_;
-  const float x = u * scale - 0.5f;
-  const float y = v * scale - 0.5f;
-  const float fx = std::floor(x);
-  const float fy = std::floor(y);
+// The four texels around (u, v) with weights in 1/256 that add up to 1: each lane's sum is at most
+// 255 · 256 and stays within its 16 bits.
+void Texture::add_bilinear(const Level& level, float u, float v, float weight, float* sum) {
+  const int x = floor_to_int(u * level.texels_per_m * 256.0f) - 128;
+  const int y = floor_to_int(v * level.texels_per_m * 256.0f) - 128;
   const int mask = level.size - 1;
-  const int x0 = static_cast<int>(fx) & mask;
+  const int x0 = (x >> 8) & mask;
   const int x1 = (x0 + 1) & mask;
-  const int y0 = static_cast<int>(fy) & mask;
+  const int y0 = (y >> 8) & mask;
   const int y1 = (y0 + 1) & mask;
-  const float a = x - fx;
-  const float b = (y - fy) * weight;
-  const float c = weight - b;
-  const Texel* row0 = level.texels.data() + static_cast<std::size_t>(y0) * level.size;
-  const Texel* row1 = level.texels.data() + static_cast<std::size_t>(y1) * level.size;
-  for (int k = 0; k < 4; ++k) {
-    sum[k] += static_cast<float>(row0[x0].c[k]) * ((1.0f - a) * c) +
-              static_cast<float>(row0[x1].c[k]) * (a * c) +
-              static_cast<float>(row1[x0].c[k]) * ((1.0f - a) * b) +
-              static_cast<float>(row1[x1].c[k]) * (a * b);
-  }
+  const auto a = static_cast<std::uint64_t>(x & 255);
+  const auto b = static_cast<std::uint64_t>(y & 255);
+  const std::uint64_t ab = (a * b) >> 8;
+  const std::uint64_t lanes = spread(level.at(x0, y0)) * (256 - a - b + ab) +
+                              spread(level.at(x1, y0)) * (a - ab) +
+                              spread(level.at(x0, y1)) * (b - ab) + spread(level.at(x1, y1)) * ab;
+  sum[0] += weight * static_cast<float>(static_cast<int>(lanes & 0xffff));
+  sum[1] += weight * static_cast<float>(static_cast<int>((lanes >> 32) & 0xffff));
+  sum[2] += weight * static_cast<float>(static_cast<int>((lanes >> 16) & 0xffff));
 }
 
-SurfaceSample Texture::sample(float u, float v, const Eigen::Vector2f& axis_x,
-                              const Eigen::Vector2f& axis_y) const {
+Footprint Texture::footprint(const Eigen::Vector2f& axis_x, const Eigen::Vector2f& axis_y) const {
   const float x2 = axis_x.squaredNorm();
   const float y2 = axis_y.squaredNorm();
-  const Eigen::Vector2f& long_axis = x2 > y2 ? axis_x : axis_y;
-  const float longer = std::sqrt(std::max(x2, y2));
-  const float shorter = std::max(std::sqrt(std::min(x2, y2)), longer / kMaxTaps);
-  const int taps =
-      std::clamp(static_cast<int>(longer / std::max(shorter, 1e-9f) + 0.5f), 1, kMaxTaps);
-  const float last = static_cast<float>(levels_.size() - 1);
-  const float lod = std::clamp(rough_log2(std::max(shorter * texels_per_m_, 1e-6f)), 0.0f, last);
-  const int fine = static_cast<int>(lod);
-  const int coarse = std::min(fine + 1, static_cast<int>(levels_.size()) - 1);
-  const float t = lod - static_cast<float>(fine);
+  // Seen at a slant a footprint is long and narrow. A pixel's samples lie in different rows and
+  // columns and share out the length, so the level may be finer than the length alone asks for.
+  const float width_m = std::sqrt(std::max({std::min(x2, y2), 0.25f * std::max(x2, y2), 1e-12f}));
+  const int last = static_cast<int>(levels_.size()) - 1;
+  const float level =
+      std::clamp(rough_log2(width_m * texels_per_m_), 0.0f, static_cast<float>(last));
+  const int fine = static_cast<int>(level);
+  return {fine, std::min(fine + 1, last), level - static_cast<float>(fine)};
+}
 
-  float sum[4] = {};
-  const float weight = 1.0f / static_cast<float>(taps);
-  for (int i = 0; i < taps; ++i) {
-    const float s = (static_cast<float>(i) + 0.5f) * weight - 0.5f;
-    const float tap_u = u + s * long_axis.x();
-    const float tap_v = v + s * long_axis.y();
-    add_bilinear(levels_[fine], tap_u, tap_v, (1.0f - t) * weight, sum);
-    if (t > 0.0f) add_bilinear(levels_[coarse], tap_u, tap_v, t * weight, sum);
-  }
-  return {sum[0] * (1.0f / 255.0f), (sum[1] - 128.0f) * (1.0f / kSlopeScale),
-          (sum[2] - 128.0f) * (1.0f / kSlopeScale)};
+SurfaceSample Texture::sample(float u, float v, const Footprint& footprint) const {
+  float sum[kChannels] = {};
+  const float t = footprint.coarse_share;
+  add_bilinear(levels_[footprint.fine], u, v, 1.0f - t, sum);
+  if (t > 0.0f) add_bilinear(levels_[footprint.coarse], u, v, t, sum);
+  constexpr float kSlope = 1.0f / (256.0f * kSlopeScale);
+  constexpr float kFlat = 128.0f / kSlopeScale;
+  return {sum[0] * (1.0f / (256.0f * 255.0f)), sum[1] * kSlope - kFlat, sum[2] * kSlope - kFlat};
 }
 
 }  // namespace darkling::synthetic
