@@ -48,11 +48,11 @@ class FrameLease {
 
 enum class WaitStatus {
   kUnknown = 0,
-  kFrame,       // `lease` holds a pair
-  kBadFrame,    // the pair at `sequence` was lost or unusable; `fault` says why; go on
-  kTimeout,     // nothing within the time given
-  kEndOfSource, // a recording is over
-  kDeviceLost,  // stop() and start() again
+  kFrame,        // `lease` holds a pair
+  kBadFrame,     // the pair at `sequence` was lost or unusable; `fault` says why; go on
+  kTimeout,      // nothing within the time given
+  kEndOfSource,  // a recording is over
+  kDeviceLost,   // stop() and start() again
 };
 
 enum class FrameFault {

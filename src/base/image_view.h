@@ -23,8 +23,8 @@ struct ImageView {
 
   // A view of mutable pixels reads as a view of constant ones.
   template <class U>
-    requires(std::is_same_v<T, const U>)
-  ImageView(const ImageView<U>& other)  // NOLINT(google-explicit-constructor)
+  requires(std::is_same_v<T, const U>)
+      ImageView(const ImageView<U>& other)  // NOLINT(google-explicit-constructor)
       : data(other.data), width(other.width), height(other.height), stride(other.stride) {}
 
   [[nodiscard]] T* row(int y) const { return data + y * stride; }

@@ -15,7 +15,8 @@ using KernelBench = void (*)(benchmark::State& state, const KernelTable& table, 
 // thumbnail that matters. Returns true, so that a constant can be initialised with it.
 bool for_each_table_and_size(const char* kernel, KernelBench run);
 
-// Adds time a pixel (printed as "290ps") and bytes a second. @param bytes_per_pixel  read and written.
+// Adds time a pixel (printed as "290ps") and bytes a second. @param bytes_per_pixel  read and
+// written.
 void report_per_pixel(benchmark::State& state, int pixels, int bytes_per_pixel);
 
 }  // namespace darkling::bench
