@@ -31,16 +31,21 @@ struct RectifiedRig {
   Matrix3 R_rawright_right = Matrix3::Identity();
 };
 
-// Refuses rigs that cannot be right: sizes that differ or are absurd, focal lengths or principal
-// points far outside the image, a baseline that is zero, negative (right camera on the left: the
-// eyes are swapped), under 5 mm or over 5 m, optical axes more than 30° apart.
+// Refuses rigs that cannot be right: numbers that are not finite, sizes that differ or are absurd,
+// focal lengths or principal points far outside the image, a baseline that is zero, negative (right
+// camera on the left: the eyes are swapped), under 5 mm, over 5 m or more than 30° off the image
+// rows (upright pairs too), cameras turned more than 30° against each other.
 // @return kConfiguration with what was found and what is allowed.
 [[nodiscard]] Result<void> check_rig(const StereoRig& rig);
 
 // Chooses the rectified pair: optical axes turned the least that makes rows match, field of view
-// the largest whose every pixel is seen by both cameras (at most 100° across).
+// the largest whose every pixel is seen by both cameras (at most 100° across). A pair that is
+// rectified already keeps its geometry, scaled; as heights are rounded to whole pixels, its last
+// row may then reach up to half a thumbnail pixel beyond the source.
 // @param width_px  thumbnail width; 0 means the source's. Height keeps the source's aspect ratio.
-// @return kConfiguration when check_rig() refuses or no common field of view remains.
+// @return kConfiguration when check_rig() refuses, the width is not 32…source, or the common field
+// of view is under 10°.
+// Cost: some 15 ms; at start only.
 [[nodiscard]] Result<RectifiedRig> rectify_rig(const StereoRig& rig, int width_px);
 
 }  // namespace darkling

@@ -44,6 +44,9 @@ std::vector<CameraCase> camera_cases() {
       {"FisheyeLeft", fisheye_rig().left, 2.0, true},
       {"FisheyeRight", fisheye_rig().right, 2.0, true},
       {"EquidistantWithoutCoefficients", vga(kEquidistant, {}, 180.0), 3.1, true},
+      // Newton's method alone ends on the far side of this fold, which lies at 1.15 rad.
+      {"EquidistantMisleading", vga(kEquidistant, {-0.198, 0.557, 0.268, -0.336}, 250.0), 1.14,
+       false},
       {"EquidistantFolding", vga(kEquidistant, {-0.1, 0.0, 0.0, 0.0}, 180.0), equidistant_fold_rad,
        false},
   };
