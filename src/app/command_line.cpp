@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,16 +45,17 @@ int report_error(const Error& error) {
 }
 
 // CLI11 reports by exceptions; what it calls an error is a usage error here.
-Result<void> parse(CLI::App& app, const std::vector<std::string>& words) {
+// @return the exit status when there is nothing left to do: help or the version was asked for.
+Result<std::optional<int>> parse(CLI::App& app, const std::vector<std::string>& words) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it wants them reversed
-    return {};
+    return std::nullopt;
+  } catch (const CLI::Success& wish) {
+    return app.exit(wish);
   } catch (const CLI::ParseError& e) {
-    const CLI::App* command = &app;
-    if (!app.get_subcommands().empty()) command = app.get_subcommands().front();
-    return failure(ExitCode::kUsage, std::string(e.what()) + "\nTry: darkling " +
-                                         (command == &app ? "" : command->get_name() + " ") +
-                                         "--help");
+    const auto verbs = app.get_subcommands();
+    const std::string verb = verbs.empty() ? "" : verbs.front()->get_name() + " ";
+    return failure(ExitCode::kUsage, std::string(e.what()) + "\nTry: darkling " + verb + "--help");
   }
 }
 
@@ -61,19 +63,23 @@ int run(const std::vector<std::string>& words) {
   CLI::App app(kAbout, "darkling");
   app.footer(std::string("darkling VERB --help tells more.\n\n") + kExitCodes);
   app.set_version_flag("--version", "darkling " DARKLING_VERSION);
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
   app.require_subcommand(1);
   std::vector<VerbAction> actions;
   for (const Verb& verb : kVerbs) {
     CLI::App* command = app.add_subcommand(verb.name, verb.about);
+    command->group("Verbs");
     actions.push_back(verb.declare(*command));
     command->footer(command->get_footer() + "\n" + kExitCodes);
   }
-  if (const auto known = check_words(app, words); !known) return report_error(known.error());
-  try {
-    if (const auto parsed = parse(app, words); !parsed) return report_error(parsed.error());
-  } catch (const CLI::Success& help) {  // --help and --version
-    return app.exit(help);
+  if (words.empty()) {
+    std::fputs(app.help().c_str(), stderr);
+    return static_cast<int>(ExitCode::kUsage);
   }
+  if (const auto known = check_words(app, words); !known) return report_error(known.error());
+  const auto parsed = parse(app, words);
+  if (!parsed) return report_error(parsed.error());
+  if (*parsed) return **parsed;
   for (std::size_t i = 0; i < kVerbs.size(); ++i) {
     if (!app.got_subcommand(kVerbs[i].name)) continue;
     const auto done = actions[i]();

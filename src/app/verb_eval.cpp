@@ -39,8 +39,12 @@ Result<int> compare(const EvalOptions& options) {
 
 VerbAction declare_eval(CLI::App& command) {
   auto options = std::make_shared<EvalOptions>();
-  command.add_option("TRUTH", options->truth_path, "The true trajectory")->required();
-  command.add_option("ESTIMATE", options->estimate_path, "The trajectory to judge")->required();
+  command.add_option("TRUTH", options->truth_path, "The true trajectory")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("ESTIMATE", options->estimate_path, "The trajectory to judge")
+      ->required()
+      ->type_name("FILE");
   command.add_flag("--json", options->is_json, "Print JSON instead of a table");
   command.footer(
       "Files are recognised by their columns: KITTI (12 numbers a row, compared row by row), TUM\n"

@@ -106,7 +106,8 @@ constexpr const char* kMore =
     "  darkling replay --print-config > rover.yaml\n";
 
 void declare_input(CLI::App& command, ReplayWords& words) {
-  command.add_option("SOURCE", words.source, "The recording to play");
+  command.add_option("SOURCE", words.source, "The recording to play")
+      ->type_name("FOLDER|synthetic:SCENE");
   command.add_option("--config", words.config_path, "Configuration file (YAML)")->type_name("FILE");
   command.add_option("--set", words.settings, "One key of the configuration; repeatable")
       ->type_name("KEY=VALUE")

@@ -34,8 +34,8 @@ void write_text(const std::string& path, std::string_view content) {
 std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream content;
-  content << file.rdbuf();
-  if (!file || !content) throw std::runtime_error("cannot read " + path);
+  if (file.peek() != std::ifstream::traits_type::eof()) content << file.rdbuf();  // or it is empty
+  if (!file.is_open() || file.bad() || !content) throw std::runtime_error("cannot read " + path);
   return content.str();
 }
 

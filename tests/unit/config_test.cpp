@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/config.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/project_folder.h"
+#include "support/temporary_folder.h"
+
+namespace darkling {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<OdometryConfig> load_content(const std::string& content) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "rover.yaml", content);
+  return load_config(folder / "rover.yaml", {});
+}
+
+Result<OdometryConfig> load_setting(const std::string& setting) {
+  return load_config("", {{"--set", setting}});
+}
+
+void expect_refused(const Result<OdometryConfig>& config, ExitCode code, const std::string& part) {
+  ASSERT_FALSE(config) << part;
+  EXPECT_EQ(config.error().code, code);
+  EXPECT_THAT(config.error().message, HasSubstr(part));
+}
+
+TEST(LoadConfig, GivesTheDefaultsWhenNothingIsSet) {
+  const auto config = load_config("", {});
+  ASSERT_TRUE(config);
+  EXPECT_EQ(format_config(*config), format_config(OdometryConfig{}));
+}
+
+TEST(LoadConfig, ReadsAFileThenTheSettings) {
+  const test::TemporaryFolder folder;
+  test::write_text(folder / "rover.yaml", "# mine\nwidth_px: 240\npoints_per_level: 700\n");
+  const auto config = load_config(folder / "rover.yaml", {{"--set", "width_px=188"}});
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->width_px, 188);
+  EXPECT_EQ(config->points_per_level, 700);
+}
+
+TEST(LoadConfig, TakesAnEmptyFileForTheDefaults) {
+  EXPECT_TRUE(load_content(""));
+  EXPECT_TRUE(load_content("# nothing to change\n"));
+}
+
+TEST(LoadConfig, NamesFileLineAndNearestOfAnUnknownKey) {
+  expect_refused(load_content("points_per_level: 700\nwidht_px: 240\n"), ExitCode::kConfiguration,
+                 "rover.yaml:2: unknown key 'widht_px', did you mean 'width_px'?");
+  expect_refused(load_setting("widht_px=240"), ExitCode::kUsage,
+                 "--set: unknown key 'widht_px', did you mean 'width_px'?");
+}
+
+TEST(LoadConfig, RefusesAKeyGivenTwice) {
+  expect_refused(load_content("width_px: 240\nwidth_px: 241\n"), ExitCode::kConfiguration,
+                 "rover.yaml:2: key 'width_px' is given twice");
+  expect_refused(load_config("", {{"--set", "width_px=240"}, {"--width", "width_px=240"}}),
+                 ExitCode::kUsage, "--width: key 'width_px' is given twice");
+}
+
+TEST(LoadConfig, SaysWhatIsAllowedOfAValueOutOfRange) {
+  expect_refused(load_content("width_px: 20\n"), ExitCode::kConfiguration,
+                 "rover.yaml:1: key 'width_px': found '20', allowed is 64 to 1280 px or 0");
+  expect_refused(load_setting("width_px=1281"), ExitCode::kUsage, "allowed is 64 to 1280 px or 0");
+  expect_refused(load_setting("width_px=-1"), ExitCode::kUsage, "found '-1'");
+  EXPECT_TRUE(load_setting("width_px=0"));
+  EXPECT_TRUE(load_setting("width_px=64"));
+  EXPECT_TRUE(load_setting("width_px=1280"));
+}
+
+TEST(LoadConfig, RefusesValuesOfAnotherKind) {
+  for (const char* value : {"", "wide", "240.5", "240px", "[240]", "{a: 1}", "0x100", "nan"}) {
+    expect_refused(load_content("width_px: " + std::string(value) + "\n"), ExitCode::kConfiguration,
+                   "rover.yaml:1: key 'width_px'");
+  }
+}
+
+TEST(LoadConfig, RefusesASettingWithoutAnEqualsSign) {
+  expect_refused(load_setting("width_px"), ExitCode::kUsage, "key=value is needed");
+}
+
+TEST(LoadConfig, RefusesWhatIsNoMapOfKeys) {
+  expect_refused(load_content("- width_px\n"), ExitCode::kConfiguration, "a map of");
+  expect_refused(load_content("a: [1\n"), ExitCode::kConfiguration, "is not valid YAML");
+}
+
+TEST(LoadConfig, SaysWhichFileCannotBeRead) {
+  const test::TemporaryFolder folder;
+  expect_refused(load_config(folder / "absent.yaml", {}), ExitCode::kNoInput,
+                 "absent.yaml: configuration cannot be read: No such file");
+  expect_refused(load_config(folder.path(), {}), ExitCode::kNoInput, "Is a directory");
+}
+
+TEST(ConfigKeys, AreNamedOnceAndHaveTheirDefaultsInRange) {
+  std::set<std::string_view> names;
+  for (const ConfigKey& key : config_keys()) {
+    EXPECT_TRUE(names.insert(key.name).second) << key.name;
+    EXPECT_FALSE(key.about.empty()) << key.name;
+    EXPECT_LE(key.least, key.most) << key.name;
+  }
+  EXPECT_TRUE(load_content(format_config(OdometryConfig{})));
+}
+
+TEST(FormatConfig, IsReadBackAsTheSameConfiguration) {
+  OdometryConfig config;
+  config.width_px = 177;
+  config.points_per_level = 321;
+  const auto read = load_content(format_config(config));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(format_config(*read), format_config(config));
+}
+
+// DARKLING_UPDATE=1 writes the file instead.
+TEST(DefaultConfigFile, IsWhatTheTableSays) {
+  const std::string path = test::project_folder() + "/config/default.yaml";
+  if (std::getenv("DARKLING_UPDATE") != nullptr) {
+    test::write_text(path, format_config(OdometryConfig{}));
+  }
+  EXPECT_EQ(test::read_text(path), format_config(OdometryConfig{}))
+      << "run with DARKLING_UPDATE=1 to write it anew";
+}
+
+}  // namespace
+}  // namespace darkling

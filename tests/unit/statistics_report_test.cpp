@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/run_report.h"
+
+namespace darkling {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+RunReport example_report() {
+  RunReport report;
+  report.source = "/rec/night";
+  report.statistics.frames = 10;
+  report.statistics.tracked_frames = 7;
+  report.statistics.degraded_frames = 1;
+  report.statistics.lost_frames = 1;
+  report.statistics.bad_frames = 1;
+  report.statistics.keyframes = 3;
+  report.statistics.frame_ms = Percentiles{.p50 = 2.0, .p90 = 3.0, .p99 = 4.0, .max = 5.0};
+  report.statistics.frame_period_ms = 50.0;
+  report.statistics.stage_us[0] = Percentiles{.p50 = 20.0, .p90 = 30.0, .p99 = 40.0, .max = 50.0};
+  report.faults.unreadable = 1;
+  report.kernels = "ref";
+  report.width_px = 320;
+  report.height_px = 240;
+  report.arena_bytes = 3 << 20;
+  report.trajectory_sha256 = "ab";
+  return report;
+}
+
+Evaluation example_evaluation() {
+  return {.matched_poses = 9,
+          .path_m = 60.0,
+          .drift_percent = 0.25,
+          .drift_deg_per_m = 0.002,
+          .ate_rmse_m = 0.11,
+          .rpe_rmse_m = 0.012,
+          .rpe_rmse_deg = 0.03};
+}
+
+TEST(StatisticsJson, HasEveryFixedKey) {
+  const Json json = Json::parse(format_statistics_json(example_report()));
+  for (const char* key :
+       {"frames", "keyframes", "lost_frames", "resets", "distance_m", "ate_rmse_m", "drift_percent",
+        "drift_deg_per_m", "rpe_rmse_m", "rpe_rmse_deg", "frame_ms", "stage_us", "arena_bytes",
+        "heap_calls_after_start", "peak_rss_bytes", "kernels", "width", "height",
+        "trajectory_sha256"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  for (const char* key : {"p50", "p90", "p99", "max"}) {
+    EXPECT_TRUE(json["frame_ms"].contains(key)) << key;
+  }
+  EXPECT_EQ(json["stage_us"]["rectify"]["p50"], 20.0);
+  EXPECT_EQ(json["stage_us"]["rectify"]["p99"], 40.0);
+  EXPECT_FALSE(json["stage_us"].contains("track"));
+}
+
+TEST(StatisticsJson, SaysNullForWhatIsNotKnown) {
+  RunReport report = example_report();
+  report.statistics.frame_ms.reset();
+  const Json json = Json::parse(format_statistics_json(report));
+  for (const char* key : {"ate_rmse_m", "drift_percent", "rpe_rmse_m", "heap_calls_after_start",
+                          "peak_rss_bytes", "frame_ms"}) {
+    EXPECT_TRUE(json[key].is_null()) << key;
+  }
+}
+
+TEST(StatisticsJson, CarriesTheFiguresOfTheEvaluation) {
+  RunReport report = example_report();
+  report.evaluation = example_evaluation();
+  const Json json = Json::parse(format_statistics_json(report));
+  EXPECT_EQ(json["drift_percent"], 0.25);
+  EXPECT_EQ(json["drift_deg_per_m"], 0.002);
+  EXPECT_EQ(json["ate_rmse_m"], 0.11);
+  EXPECT_EQ(json["rpe_rmse_m"], 0.012);
+  EXPECT_EQ(json["rpe_rmse_deg"], 0.03);
+}
+
+TEST(StatisticsJson, IsValidForANameThatIsNotUtf8) {
+  RunReport report = example_report();
+  report.source = "/rec/\xff\xfe";
+  EXPECT_TRUE(Json::accept(format_statistics_json(report)));
+}
+
+TEST(Summary, CountsFramesByWhatBecameOfThem) {
+  const std::string summary = format_summary(example_report());
+  EXPECT_THAT(summary, HasSubstr("/rec/night\n"));
+  EXPECT_THAT(summary, HasSubstr("10: 7 tracked, 1 degraded, 1 lost, 1 bad"));
+  EXPECT_THAT(summary, HasSubstr("1 with an absent or damaged image"));
+  EXPECT_THAT(summary, Not(HasSubstr("interrupted")));
+}
+
+TEST(Summary, SaysHowMuchOfRealTimeAFrameTakes) {
+  EXPECT_THAT(format_summary(example_report()),
+              HasSubstr("2.00 ms a frame (p50), 4.00 ms (p99): 4.0 % of real time at 20 Hz"));
+}
+
+TEST(Summary, ShowsErrorsOnlyAgainstATruth) {
+  RunReport report = example_report();
+  EXPECT_THAT(format_summary(report), Not(HasSubstr("drift")));
+  report.evaluation = example_evaluation();
+  EXPECT_THAT(format_summary(report), HasSubstr("0.25 %, 0.0020 deg/m"));
+  report.evaluation->drift_percent.reset();
+  EXPECT_THAT(format_summary(report), HasSubstr("shorter than 5 m"));
+}
+
+TEST(Summary, MarksAnInterruptedRun) {
+  RunReport report = example_report();
+  report.was_interrupted = true;
+  EXPECT_THAT(format_summary(report), HasSubstr("/rec/night  (interrupted)"));
+}
+
+}  // namespace
+}  // namespace darkling
