@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/synthetic/scene.h"
 
+#include "drivers/synthetic/quarry_ground.h"
+
 namespace darkling::synthetic {
 
 namespace {
@@ -17,14 +19,21 @@ RoverPath make_path(const SyntheticSpec& spec) {
   if (spec.scene == "corridor") {
     shape.is_square = true;
     shape.correction_deg = 3.0;
-    shape.beyond_m = 16.0;
+    shape.lead_m = 1.5;
     bump_scale = 0.25;  // joints of tiles, not stones
   }
-  return RoverPath(shape,
-                   {.duration_s = (spec.frames - 1) / spec.rate_hz,
-                    .speed_mps = spec.speed,
-                    .bump_scale = bump_scale},
-                   mix64(spec.seed));
+  RoverPath path(shape,
+                 {.duration_s = (spec.frames - 1) / spec.rate_hz,
+                  .speed_mps = spec.speed,
+                  .bump_scale = bump_scale},
+                 mix64(spec.seed));
+  if (spec.scene == "quarry") {
+    path.set_ground([seed = scene_seed(spec)](double x_m, double y_m) {
+      return static_cast<double>(
+          quarry_ground(static_cast<float>(x_m), static_cast<float>(y_m), seed));
+    });
+  }
+  return path;
 }
 
 Scene make_scene(const SyntheticSpec& spec, const RoverPath& path) {
