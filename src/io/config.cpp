@@ -159,8 +159,7 @@ Result<OdometryConfig> load_config(const std::string& path,
 
 std::string format_config(const OdometryConfig& config) {
   std::string file =
-      "# Configuration of Darkling. Every key with its default; leave out what you do not "
-      "change.\n";
+      "# Configuration of Darkling: every key there is. One that is left out has its default.\n";
   for (const ConfigKey& key : config_keys()) {
     file += "\n# " + std::string(key.about) + "\n# Allowed: " + describe_range(key) + ".\n" +
             std::string(key.name) + ": " + value_text(config, key) + "\n";

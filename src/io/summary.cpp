@@ -55,10 +55,10 @@ std::string time_row(const RunReport& report) {
 }
 
 std::string memory_row(const RunReport& report) {
-  std::string content = text("%.1f MiB fixed", static_cast<double>(report.arena_bytes) / kMiB);
+  std::string content =
+      text("%.1f MiB fixed at start", static_cast<double>(report.arena_bytes) / kMiB);
   if (report.peak_rss_bytes) {
-    content += text(", %.0f MiB at most with the source's",
-                    static_cast<double>(*report.peak_rss_bytes) / kMiB);
+    content += text("; process peak %.0f MiB", static_cast<double>(*report.peak_rss_bytes) / kMiB);
   }
   return row("memory", content);
 }
