@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/number_text.h"
 #include "io/calibration_yaml.h"
 #include "io/nearest.h"
 
@@ -49,7 +50,7 @@ Result<void> read_size(const YamlSection& section, Camera& camera) {
   if (!size) return tl::unexpected(size.error());
   for (const double pixels : *size) {
     if (pixels < 1 || pixels > kMaxSize || pixels != std::floor(pixels)) {
-      return wrong_value(section, "resolution", std::to_string(pixels), allowed);
+      return wrong_value(section, "resolution", number_text(pixels), allowed);
     }
   }
   camera.width = static_cast<int>((*size)[0]);
@@ -63,8 +64,7 @@ Result<void> read_intrinsics(const YamlSection& section, Camera& camera) {
   if (!intrinsics) return tl::unexpected(intrinsics.error());
   const std::vector<double>& k = *intrinsics;
   if (k[0] <= 0.0 || k[1] <= 0.0) {
-    const std::string found =
-        "focal lengths " + std::to_string(k[0]) + " and " + std::to_string(k[1]);
+    const std::string found = "focal lengths " + number_text(k[0]) + " and " + number_text(k[1]);
     return wrong_value(section, "intrinsics", found, allowed);
   }
   camera.fx = k[0];

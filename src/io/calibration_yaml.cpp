@@ -9,6 +9,7 @@
 
 #include <Eigen/SVD>
 
+#include "base/number_text.h"
 #include "base/text_file.h"
 
 namespace darkling {
@@ -146,10 +147,10 @@ Result<Se3> yaml_motion(const YamlSection& section, const char* key) {
   const Matrix3 R = M.topLeftCorner<3, 3>();
   const double error = (R * R.transpose() - Matrix3::Identity()).cwiseAbs().maxCoeff();
   if (error > kTolerance || R.determinant() < 0.0) {
-    std::ostringstream what;
-    what << "a 3x3 part that is no rotation (rows off orthonormal by " << error << ", determinant "
-         << R.determinant() << ")";
-    return wrong_value(section, key, what.str(), allowed);
+    const std::string found = "a 3x3 part that is no rotation (rows off orthonormal by " +
+                              number_text(error) + ", determinant " + number_text(R.determinant()) +
+                              ")";
+    return wrong_value(section, key, found, allowed);
   }
   // The rotation nearest to R.
   const Eigen::JacobiSVD<Matrix3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -101,38 +101,38 @@ TEST_F(EurocCalibration, NamesAMissingKey) {
 }
 
 TEST_F(EurocCalibration, RefusesOtherCameraModelsByName) {
-  expect_refused("pinhole", "omni", {":11:", "'camera_model'", "'omni'", "pinhole"});
+  expect_refused("pinhole", "omni", {":12:", "'camera_model'", "'omni'", "pinhole"});
 }
 
 TEST_F(EurocCalibration, SuggestsTheNearestDistortionModel) {
   expect_refused("radial-tangential", "radial-tangent",
-                 {":13:", "'distortion_model'", "did you mean 'radial-tangential'"});
+                 {":14:", "'distortion_model'", "did you mean 'radial-tangential'"});
 }
 
 TEST_F(EurocCalibration, CountsTheCoefficients) {
   expect_refused("distortion_coefficients: [0, 0, 0, 0]",
                  "distortion_coefficients: [0, 0, 0, 0, 0]",
-                 {":14:", "'distortion_coefficients'", "5 numbers", "4 finite numbers"});
+                 {":15:", "'distortion_coefficients'", "5 numbers", "4 finite numbers"});
 }
 
 TEST_F(EurocCalibration, RefusesCoefficientsOfNoDistortion) {
   replace_in_file(sensor1_, "radial-tangential", "none");
   expect_refused("distortion_coefficients: [0, 0", "distortion_coefficients: [0.1, 0",
-                 {":14:", "not zero"});
+                 {":15:", "not zero"});
 }
 
 TEST_F(EurocCalibration, RefusesANumberThatIsNotFinite) {
-  expect_refused("intrinsics: [96", "intrinsics: [.nan", {":12:", "'intrinsics'", "'.nan'"});
+  expect_refused("intrinsics: [96", "intrinsics: [.nan", {":13:", "'intrinsics'", "'.nan'"});
   replace_in_file(sensor1_, ".nan", "1e999");
   EXPECT_FALSE(load_euroc_calibration(mav0_));
 }
 
 TEST_F(EurocCalibration, RefusesANegativeFocalLength) {
-  expect_refused("intrinsics: [96", "intrinsics: [-96", {":12:", "'intrinsics'", "-96"});
+  expect_refused("intrinsics: [96", "intrinsics: [-96", {":13:", "'intrinsics'", "-96"});
 }
 
 TEST_F(EurocCalibration, RefusesASizeOfZero) {
-  expect_refused("resolution: [96, 64]", "resolution: [96, 0]", {":10:", "'resolution'"});
+  expect_refused("resolution: [96, 64]", "resolution: [96, 0]", {":11:", "'resolution'"});
 }
 
 TEST_F(EurocCalibration, RefusesEyesOfDifferentSizes) {
