@@ -67,7 +67,7 @@ def units(root, build, folders):
 def run_one(root, path, command):
     arguments = ["clang-tidy", "--quiet", f"--config-file={root}/.clang-tidy", str(path), "--"]
     done = subprocess.run(arguments + command[1:], capture_output=True, text=True, cwd=root)
-    return done.returncode, done.stdout + (done.stderr if done.returncode else "")
+    return done.returncode, done.stdout or done.stderr
 
 
 def main():
