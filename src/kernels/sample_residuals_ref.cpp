@@ -10,7 +10,8 @@ int sample_residuals_ref(std::span<const TemplatePoint> points, const PointWarp&
   const auto& A = warp.A;
   const auto& a = warp.a;
   const float f = warp.focal_px;
-  const float u_end = static_cast<float>(planes.width / kPlaneCount - 2);
+  const int width = planes.width / kPlaneCount;
+  const float u_end = static_cast<float>(width - 2);
   const float v_end = static_cast<float>(planes.height - 2);
   int visible = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -24,12 +24,12 @@ namespace {
 
 // One step along one path: from the costs `before` (guarded by 255) with minimum `least` to `now`,
 // whose minimum is returned; adds to `sum`. Hirschmüller 2008, eq. (13).
-std::uint8_t step_path(const std::uint8_t* cost, int disparities, SemiGlobalPenalties penalties,
+std::uint8_t step_path(std::span<const std::uint8_t> cost, SemiGlobalPenalties penalties,
                        const std::uint8_t* before, std::uint8_t least, std::uint8_t* now,
                        std::uint16_t* sum) {
   const int jump = least + penalties.large_step;
   std::uint8_t minimum = 255;
-  for (int d = 0; d < disparities; ++d) {
+  for (int d = 0; d < static_cast<int>(cost.size()); ++d) {
     const int stay = before[d];
     const int step = std::min(before[d - 1], before[d + 1]) + penalties.small_step;
     const auto path =
@@ -71,24 +71,24 @@ void semi_global_row_ref(std::span<const std::uint8_t> cost, SemiGlobalPenalties
   std::memset(along[0], 0, D);
   std::uint8_t least_along = 0;
   for (int x = 0; x < rows.width; ++x) {
-    const std::uint8_t* c = cost.data() + x * D;
+    const std::span<const std::uint8_t> c = cost.subspan(x * D, D);
     std::uint16_t* s = sum.data() + x * D;
     for (int direction = 0; direction < 3; ++direction) {
       const int from = x + 1 + direction - 1;  // one guard pixel at the left end
       const int to = x + 1;
       rows.minima[direction][now][to] =
-          step_path(c, D, penalties, rows.costs[direction][before] + from * stride + kPathGuard,
+          step_path(c, penalties, rows.costs[direction][before] + from * stride + kPathGuard,
                     rows.minima[direction][before][from],
                     rows.costs[direction][now] + to * stride + kPathGuard, s);
     }
-    least_along = step_path(c, D, penalties, along[x & 1], least_along, along[1 - (x & 1)], s);
+    least_along = step_path(c, penalties, along[x & 1], least_along, along[1 - (x & 1)], s);
   }
 
   std::memset(along[0], 0, D);
   least_along = 0;
   int side = 0;
   for (int x = rows.width - 1; x >= 0; --x, side = 1 - side) {
-    least_along = step_path(cost.data() + x * D, D, penalties, along[side], least_along,
+    least_along = step_path(cost.subspan(x * D, D), penalties, along[side], least_along,
                             along[1 - side], sum.data() + x * D);
   }
   rows.parity = now;

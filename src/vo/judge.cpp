@@ -31,7 +31,7 @@ bool is_well_conditioned(const Matrix6& information, double px_per_m, double px_
   scale << Vector3::Constant(1.0 / px_per_m), Vector3::Constant(1.0 / px_per_rad);
   const Matrix6 scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled, Eigen::EigenvaluesOnly);
-  const Vector6 values = solver.eigenvalues();
+  const Vector6& values = solver.eigenvalues();
   return values[0] > kMinConditioning * values[5];
 }
 

@@ -36,6 +36,29 @@ float block_disparity(ImageView<const float> disparity, int level, int x, int y)
   return known[count / 2] / static_cast<float>(size);
 }
 
+// A rectangle of pixels, ends excluded.
+struct Cell {
+  int x_begin;
+  int x_end;
+  int y_begin;
+  int y_end;
+};
+
+// The most salient pixel of a cell whose disparity is known; kNoDisparity when there is none.
+PointSelector::Candidate best_in_cell(const Cell& cell, ImageView<const std::uint16_t> saliency,
+                                      ImageView<const float> disparity, int level) {
+  PointSelector::Candidate best = {0, 0, kMinSaliency, kNoDisparity};
+  for (int y = cell.y_begin; y < cell.y_end; ++y) {
+    for (int x = cell.x_begin; x < cell.x_end; ++x) {
+      if (saliency.at(x, y) <= best.saliency) continue;
+      const float d = block_disparity(disparity, level, x, y);
+      if (d < 0.0f) continue;
+      best = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), saliency.at(x, y), d};
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 PointSelector allocate_point_selector(const RectifiedRig& rig, int points_per_level, Arena& arena) {
@@ -67,16 +90,8 @@ std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
     for (int column = 0; column < columns; ++column) {
       const int x_begin = std::max(kBorder, column * width / columns);
       const int x_end = std::min(width - kBorder, (column + 1) * width / columns);
-      PointSelector::Candidate best = {0, 0, kMinSaliency, kNoDisparity};
-      for (int y = y_begin; y < y_end; ++y) {
-        for (int x = x_begin; x < x_end; ++x) {
-          if (saliency.at(x, y) <= best.saliency) continue;
-          const float d = block_disparity(disparity, level, x, y);
-          if (d < 0.0f) continue;
-          best = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), saliency.at(x, y),
-                  d};
-        }
-      }
+      const PointSelector::Candidate best =
+          best_in_cell({x_begin, x_end, y_begin, y_end}, saliency, disparity, level);
       if (best.disparity_px >= 0.0f && count < selector.candidates.size()) {
         selector.candidates[count++] = best;
       }
