@@ -10,7 +10,10 @@ namespace darkling {
 
 namespace {
 
-constexpr int kPatchRadius = 2;
+// Smoothing has already spread every bit over some 3 px; patches of 5 and 7 px only add surfaces
+// that slant away (1.16 and 1.31 % drift in place of 1.11 % on a car's road, steps of 3.6 m 1.59 %
+// in place of 1.39 %).
+constexpr int kPatchRadius = 1;
 constexpr int kMaxIterations = 5;
 constexpr float kConvergedStepPx = 0.005f;
 // The matched pixel is right or it is not: refinement that leaves it found something else.
