@@ -3,20 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "drivers/synthetic/sensor.h"
-#include "geometry/frames.h"
+#include "drivers/synthetic/synthetic_rig.h"
 
 namespace darkling::synthetic {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kFieldOfView_deg = 85.0;  // across, without distortion
-constexpr double kBaseline_m = 0.12;
-constexpr double kPitchDown_deg = 8.0;
-constexpr double kDefaultExposure_ms = 5.0;
 
 // Four samples a pixel, no two in the same row or column, hardly correlated with their order.
 constexpr double kOffsets[kMoments][2] = {
@@ -24,32 +17,37 @@ constexpr double kOffsets[kMoments][2] = {
 constexpr float kFootprint_px = 0.5f;  // each stands for a quarter of the pixel's area
 constexpr int kMostSamples = 16;
 
-}  // namespace
+// What the best of lenses leaves of a point: a spot with a standard deviation of half a pixel.
+// Without it the pictures would be sharper, and alias more, than any camera's.
+constexpr float kSpotSide = 0.13f;
 
-StereoRig make_rig(const SyntheticSpec& spec) {
-  Camera camera;
-  camera.width = spec.width;
-  camera.height = spec.height;
-  camera.fx = camera.fy = 0.5 * spec.width / std::tan(0.5 * kFieldOfView_deg * kDegree);
-  camera.cx = 0.5 * (spec.width - 1);
-  camera.cy = 0.5 * (spec.height - 1);
-  if (spec.distortion > 0.0) {
-    camera.distortion = Distortion::kRadTan;
-    camera.coefficients = {-0.28 * spec.distortion, 0.074 * spec.distortion,
-                           0.0004 * spec.distortion, -0.0003 * spec.distortion};
+void blur_line(float* first, std::size_t stride, int count, std::vector<float>& line) {
+  line.resize(static_cast<std::size_t>(count) + 2);
+  for (int i = 0; i < count; ++i) line[i + 1] = first[i * stride];
+  line[0] = line[1];
+  line[count + 1] = line[count];
+  for (int i = 0; i < count; ++i) {
+    first[i * stride] =
+        (1.0f - 2.0f * kSpotSide) * line[i + 1] + kSpotSide * (line[i] + line[i + 2]);
   }
-  StereoRig rig;
-  rig.left = rig.right = camera;
-  const Matrix3 R =
-      so3_exp({0, kPitchDown_deg * kDegree, 0}).toRotationMatrix() * R_vehicle_optical();
-  const Matrix3 R_roll = so3_exp({0, 0, spec.roll_right_deg * kDegree}).toRotationMatrix();
-  rig.T_body_rawleft = Se3(R, {0.15, 0.5 * kBaseline_m, 0.42});
-  rig.T_body_rawright = Se3(Matrix3(R * R_roll), {0.15, -0.5 * kBaseline_m, 0.42});
-  return rig;
 }
 
+void blur_as_a_lens(int width, int height, std::vector<float>& light, std::vector<float>& line) {
+  for (int y = 0; y < height; ++y) {
+    blur_line(light.data() + static_cast<std::size_t>(y) * width, 1, width, line);
+  }
+  for (int x = 0; x < width; ++x) {
+    blur_line(light.data() + x, static_cast<std::size_t>(width), height, line);
+  }
+}
+
+}  // namespace
+
 FrameRenderer::FrameRenderer(const SyntheticSpec& spec)
-    : spec_(spec), rig_(make_rig(spec)), path_(make_path(spec)), scene_(make_scene(spec, path_)) {
+    : spec_(spec),
+      rig_(make_synthetic_rig(spec)),
+      path_(make_path(spec)),
+      scene_(make_scene(spec, path_)) {
   lenses_[0] = make_lens(rig_.left);
   lenses_[1] = make_lens(rig_.right);
 }
@@ -80,7 +78,7 @@ FrameRenderer::Lens FrameRenderer::make_lens(const Camera& camera) const {
   }
   // The guide is a plain pinhole image around all rays. A distorted lens finds its facets there;
   // finer than the image, so that outlines stay within a fraction of a pixel.
-  const double finer = camera.distortion == Distortion::kNone ? 1.0 : 1.25;
+  const double finer = camera.distortion == Distortion::kNone ? 1.0 : 1.5;
   PinholeView& guide = lens.guide;
   guide.focal_px = camera.fx * finer;
   guide.cx = std::ceil(-low.x() * guide.focal_px) + 1.0;
@@ -180,16 +178,15 @@ std::span<const float> FrameRenderer::render_light(int frame, Eye eye, Scratch& 
   for (std::size_t i = 0; i < scratch.light.size(); ++i) {
     scratch.light[i] *= scale * lens.transmission[i];
   }
+  const Camera& camera = eye == Eye::kLeft ? rig_.left : rig_.right;
+  blur_as_a_lens(camera.width, camera.height, scratch.light, scratch.row);
   return scratch.light;
 }
 
 void FrameRenderer::render(int frame, Eye eye, Scratch& scratch,
                            ImageView<std::uint8_t> image) const {
   const std::span<const float> light = render_light(frame, eye, scratch);
-  const Sensor sensor{
-      .electrons_per_grey = spec_.electrons * spec_.exposure_ms / kDefaultExposure_ms,
-      .levels_per_electron = spec_.gain * kMiddleLevel / spec_.electrons,
-      .read_noise_e = spec_.read_noise_e};
+  const Sensor sensor = make_sensor(spec_);
   const std::uint64_t eye_key =
       mix64(spec_.seed * 4 + static_cast<std::uint64_t>(eye)) + static_cast<std::uint64_t>(frame);
   const std::uint64_t key = mix64(eye_key);
@@ -198,6 +195,23 @@ void FrameRenderer::render(int frame, Eye eye, Scratch& scratch,
     expose(sensor, light.subspan(first, image.width), key + first,
            {image.row(y), static_cast<std::size_t>(image.width)});
   }
+}
+
+double FrameRenderer::nearest_hit(std::span<const Triangle> triangles, const Vector3& origin,
+                                  const Vector3& direction, double nearest_m) const {
+  for (const Triangle& t : triangles) {
+    const Vector3 n = t.n.cast<double>();
+    const double towards = n.dot(direction);
+    if (towards >= 0.0) continue;
+    const Vector3 corner = scene_.mesh.vertices[t.corner[0]].p.cast<double>();
+    const double distance = n.dot(corner - origin) / towards;
+    if (distance <= 0.0 || distance >= nearest_m) continue;
+    const Vector3 q = origin + distance * direction - corner;
+    const double b1 = q.dot(t.dual_1.cast<double>());
+    const double b2 = q.dot(t.dual_2.cast<double>());
+    if (b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0) nearest_m = distance;
+  }
+  return nearest_m;
 }
 
 std::optional<Vector3> FrameRenderer::surface_point(double t_s, Eye eye,
@@ -210,17 +224,13 @@ std::optional<Vector3> FrameRenderer::surface_point(double t_s, Eye eye,
   const Vector3 origin = T_scene_eye.translation();
   const Vector3 direction = T_scene_eye.R() * *ray;
   double nearest = 1e9;
-  for (const Triangle& t : scene_.mesh.triangles) {
-    const Vector3 n = t.n.cast<double>();
-    const double towards = n.dot(direction);
-    if (towards >= 0.0) continue;
-    const Vector3 corner = scene_.mesh.vertices[t.corner[0]].p.cast<double>();
-    const double distance = n.dot(corner - origin) / towards;
-    if (distance <= 0.0 || distance >= nearest) continue;
-    const Vector3 q = origin + distance * direction - corner;
-    const double b1 = q.dot(t.dual_1.cast<double>());
-    const double b2 = q.dot(t.dual_2.cast<double>());
-    if (b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0) nearest = distance;
+  for (const Chunk& chunk : scene_.mesh.chunks) {
+    const Vector3 to_chunk = chunk.centre.cast<double>() - origin;
+    const double beside_m = to_chunk.cross(direction).norm();
+    if (beside_m > 1.001 * chunk.radius_m) continue;
+    const Triangle* first = scene_.mesh.triangles.data() + chunk.first_triangle;
+    nearest = nearest_hit({first, static_cast<std::size_t>(chunk.triangle_count)}, origin,
+                          direction, nearest);
   }
   if (nearest >= 1e9) return std::nullopt;
   return origin + nearest * direction;

@@ -16,9 +16,6 @@ namespace darkling::synthetic {
 
 enum class Eye { kLeft = 0, kRight = 1 };
 
-// The cameras of the rover, as `spec` asks for them; Body is 0.25 m above the ground.
-[[nodiscard]] StereoRig make_rig(const SyntheticSpec& spec);
-
 // Renders the frames of one scene. Every pixel is the mean of samples spread over its area and over
 // the time the shutter is open; each sample meets the exact surface.
 // Thread: const; each thread brings its own Scratch.
@@ -28,6 +25,7 @@ class FrameRenderer {
     std::array<VisibilityBuffer, kMoments> visible;
     std::vector<ProjectedVertex> projected;
     std::vector<float> light;
+    std::vector<float> row;
   };
 
   // @pre check_synthetic() accepted the specification.
@@ -43,7 +41,7 @@ class FrameRenderer {
   // Radiance over middle grey at the sensor, before noise: width × height.
   [[nodiscard]] std::span<const float> render_light(int frame, Eye eye, Scratch& scratch) const;
 
-  // The point of the scene that the pixel sees at a moment, found by trying every facet: the
+  // The point of the scene that the pixel sees at a moment, found facet by facet: the
   // yardstick that the fast way is tested by.
   [[nodiscard]] std::optional<Vector3> surface_point(double t_s, Eye eye,
                                                      const Eigen::Vector2d& pixel) const;
@@ -56,6 +54,10 @@ class FrameRenderer {
     std::vector<float> transmission;    // vignetting, per pixel
   };
   [[nodiscard]] Lens make_lens(const Camera& camera) const;
+  // @return the distance along the unit `direction` to the first front of a facet, at most
+  //         `nearest_m`.
+  [[nodiscard]] double nearest_hit(std::span<const Triangle> triangles, const Vector3& origin,
+                                   const Vector3& direction, double nearest_m) const;
   [[nodiscard]] int sample_count(int frame) const;
   [[nodiscard]] Shader::Moment make_moment(const Lens& lens, const Se3& T_body_eye, double t_s,
                                            int pattern) const;

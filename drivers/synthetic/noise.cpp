@@ -45,10 +45,15 @@ float tiling_octave(float u, float v, int period, std::uint32_t seed) {
   const int y1 = wrap(y0 + 1, period);
   const float dx = x - static_cast<float>(ix);
   const float dy = y - static_cast<float>(iy);
-  const float a = plane_gradient(hash3(x0, y0, 0, seed), dx, dy);
-  const float b = plane_gradient(hash3(x1, y0, 0, seed), dx - 1.0f, dy);
-  const float c = plane_gradient(hash3(x0, y1, 0, seed), dx, dy - 1.0f);
-  const float d = plane_gradient(hash3(x1, y1, 0, seed), dx - 1.0f, dy - 1.0f);
+  // hash3() for z = 0, its sums shared between the four corners.
+  const std::uint32_t hx0 = seed * 0x9e3779b1u + static_cast<std::uint32_t>(x0) * 0x85ebca77u;
+  const std::uint32_t hx1 = seed * 0x9e3779b1u + static_cast<std::uint32_t>(x1) * 0x85ebca77u;
+  const std::uint32_t hy0 = static_cast<std::uint32_t>(y0) * 0xc2b2ae3du;
+  const std::uint32_t hy1 = static_cast<std::uint32_t>(y1) * 0xc2b2ae3du;
+  const float a = plane_gradient(scramble(hx0 + hy0), dx, dy);
+  const float b = plane_gradient(scramble(hx1 + hy0), dx - 1.0f, dy);
+  const float c = plane_gradient(scramble(hx0 + hy1), dx, dy - 1.0f);
+  const float d = plane_gradient(scramble(hx1 + hy1), dx - 1.0f, dy - 1.0f);
   const float s = fade(dx);
   return lerp(lerp(a, b, s), lerp(c, d, s), fade(dy));
 }

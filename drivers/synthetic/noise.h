@@ -19,13 +19,16 @@ using Vec3f = Eigen::Vector3f;
   return x ^ (x >> 31);
 }
 
-[[nodiscard]] constexpr std::uint32_t hash3(int x, int y, int z, std::uint32_t seed) {
-  std::uint32_t h = seed * 0x9e3779b1u + static_cast<std::uint32_t>(x) * 0x85ebca77u +
-                    static_cast<std::uint32_t>(y) * 0xc2b2ae3du +
-                    static_cast<std::uint32_t>(z) * 0x27d4eb2fu;
+[[nodiscard]] constexpr std::uint32_t scramble(std::uint32_t h) {
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
   h = (h ^ (h >> 12)) * 0x297a2d39u;
   return h ^ (h >> 15);
+}
+
+[[nodiscard]] constexpr std::uint32_t hash3(int x, int y, int z, std::uint32_t seed) {
+  return scramble(seed * 0x9e3779b1u + static_cast<std::uint32_t>(x) * 0x85ebca77u +
+                  static_cast<std::uint32_t>(y) * 0xc2b2ae3du +
+                  static_cast<std::uint32_t>(z) * 0x27d4eb2fu);
 }
 
 // A hash as a number in [0, 1).

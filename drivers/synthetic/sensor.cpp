@@ -56,6 +56,13 @@ float small_poisson(float mean, std::uint64_t bits) {
 
 }  // namespace
 
+Sensor make_sensor(const SyntheticSpec& spec) {
+  const double longer = spec.exposure_ms / SyntheticSpec{}.exposure_ms;
+  return {.electrons_per_grey = spec.electrons * longer,
+          .levels_per_electron = spec.gain * kMiddleLevel / spec.electrons,
+          .read_noise_e = spec.read_noise_e};
+}
+
 void expose(const Sensor& sensor, std::span<const float> light, std::uint64_t key,
             std::span<std::uint8_t> levels) {
   CHECK(light.size() == levels.size(), "one level a pixel");

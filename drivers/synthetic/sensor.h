@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/synthetic/synthetic_spec.h"
+
 namespace darkling::synthetic {
 
 // Level of a pixel without light and noise: keeps the read noise from being cut off at 0.
@@ -17,6 +19,9 @@ struct Sensor {
   double levels_per_electron = 0.03;   // after the amplifier
   double read_noise_e = 8.0;           // standard deviation
 };
+
+// The sensor with the exposure and gain that `spec` asks for.
+[[nodiscard]] Sensor make_sensor(const SyntheticSpec& spec);
 
 // Exposes one row.
 //

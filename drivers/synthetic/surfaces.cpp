@@ -62,15 +62,15 @@ void add_stones(float u, float v, int period, float extent_m, float share, std::
 
 Texture rock_surface(std::uint32_t seed) {
   return make_texture(1024, 3.0f, [seed](float u, float v) {
-    const float mottle = tiling_noise(u, v, 5, 8, 0.62f, seed);
-    const float warp_u = u + 0.02f * tiling_noise(u, v, 9, 3, 0.5f, seed + 20);
-    const float warp_v = v + 0.02f * tiling_noise(u, v, 9, 3, 0.5f, seed + 30);
+    const float mottle = tiling_noise(u, v, 5, 7, 0.64f, seed);
+    const float warp_u = u + 0.02f * tiling_noise(u, v, 13, 2, 0.5f, seed + 20);
+    const float warp_v = v + 0.02f * tiling_noise(u, v, 13, 2, 0.5f, seed + 30);
     const Cell block = tiling_cells(warp_u, warp_v, 9, seed + 40);
     const Cell chip = tiling_cells(warp_u, warp_v, 40, seed + 41);
     const float crack = 1.0f - smooth_step(0.0f, 0.06f, block.second - block.nearest);
     const float fine_crack = 1.0f - smooth_step(0.0f, 0.10f, chip.second - chip.nearest);
-    const float quartz = vein(tiling_noise(u, v, 4, 6, 0.6f, seed + 50), 0.03f) *
-                         smooth_step(0.0f, 0.6f, tiling_noise(u, v, 3, 2, 0.5f, seed + 51));
+    const float quartz = vein(tiling_noise(u, v, 4, 5, 0.6f, seed + 50), 0.03f) *
+                         smooth_step(0.0f, 0.6f, tiling_noise(u, v, 3, 1, 0.5f, seed + 51));
     Spot spot;
     spot.albedo = 0.42f + 0.17f * mottle + 0.09f * (unit_float(block.id) - 0.5f) +
                   0.06f * (unit_float(chip.id) - 0.5f) + 0.22f * quartz;
@@ -84,7 +84,7 @@ Texture rock_surface(std::uint32_t seed) {
 
 Texture gravel_surface(std::uint32_t seed) {
   return make_texture(1024, 3.0f, [seed](float u, float v) {
-    const float dust = tiling_noise(u, v, 4, 8, 0.6f, seed);
+    const float dust = tiling_noise(u, v, 4, 7, 0.62f, seed);
     Spot spot{0.36f + 0.13f * dust, 0.006f * dust};
     add_stones(u, v, 190, 3.0f, 0.5f, seed + 1, spot);
     add_stones(u, v, 83, 3.0f, 0.32f, seed + 2, spot);
@@ -114,7 +114,7 @@ Texture cloud_surface(std::uint32_t seed) {
 Texture plaster_surface(std::uint32_t seed) {
   return make_texture(1024, 3.0f, [seed](float u, float v) {
     const float stain = tiling_noise(u, v, 3, 5, 0.5f, seed);
-    const float roller = tiling_noise(u, v, 90, 4, 0.7f, seed + 1);
+    const float roller = tiling_noise(u, v, 90, 3, 0.7f, seed + 1);
     const float scuff = vein(tiling_noise(u, 3.0f * v, 3, 5, 0.6f, seed + 2), 0.02f) *
                         smooth_step(0.05f, 0.5f, tiling_noise(u, v, 5, 3, 0.5f, seed + 3));
     const Cell chip = tiling_cells(u, v, 37, seed + 4);

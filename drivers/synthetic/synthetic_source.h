@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "drivers/frame_source.h"
+#include "drivers/synthetic/synthetic_rig.h"
 #include "drivers/synthetic/synthetic_spec.h"
 #include "geometry/stereo_rig.h"
 

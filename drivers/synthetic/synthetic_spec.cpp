@@ -124,6 +124,11 @@ Result<void> check_synthetic(SyntheticSpec& spec) {
     found << value;
     if (auto in_range = check_range(key, value, found.str()); !in_range) return in_range;
   }
+  if (spec.height * 4 < spec.width || spec.height * 2 > spec.width * 3) {
+    return failure(ExitCode::kUsage, "synthetic: height=" + std::to_string(spec.height) +
+                                         " does not go with width=" + std::to_string(spec.width) +
+                                         "; allowed: a quarter to one and a half times the width");
+  }
   return {};
 }
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/result.h"
+#include "base/stereo_frame.h"
+#include "geometry/stereo_rig.h"
+
+namespace darkling {
+
+enum class DatasetLayout {
+  kEuroc,  // mav0/camN/{data/<ns>.png,data.csv,sensor.yaml}, groundtruth.tum (T_world_body)
+  kKitti,  // image_N/<number>.png, calib.txt, times.txt, poses.txt (T_world_left)
+};
+
+// Writes stereo frames with their true poses as a dataset: images first, then the rows that name
+// them.
+class DatasetWriter {
+ public:
+  virtual ~DatasetWriter() = default;
+  // @return kUsage when something cannot be written.
+  virtual Result<void> add(const StereoFrame& frame, const Se3& T_world_body) = 0;
+  virtual Result<void> close() = 0;
+};
+
+struct DatasetDescription {
+  std::string folder;
+  std::string scene;  // for comments
+  StereoRig rig;
+  double rate_hz = 0.0;
+};
+
+// Creates the folders, the calibration and empty indices.
+// @return kUsage when something cannot be written.
+[[nodiscard]] Result<std::unique_ptr<DatasetWriter>> create_euroc_writer(
+    const DatasetDescription& description);
+// @pre the rig is rectified: no distortion, both cameras turned alike.
+[[nodiscard]] Result<std::unique_ptr<DatasetWriter>> create_kitti_writer(
+    const DatasetDescription& description);
+
+// Makes sure that `folder` can take a new dataset. @param is_forced  removes an earlier dataset,
+// and only that, from it.
+// @return kUsage when it is not empty, not a folder or cannot be made.
+[[nodiscard]] Result<void> prepare_folder(const std::string& folder, bool is_forced);
+
+// What both writers are made of. @return kUsage with path and reason.
+[[nodiscard]] Result<void> make_folder(const std::string& path);
+[[nodiscard]] Result<void> write_png(const std::string& path,
+                                     const ImageView<const std::uint8_t>& image);
+
+}  // namespace darkling
