@@ -31,7 +31,7 @@ class DatasetSource final : public FrameSource {
   struct Slot {
     ImageBuffer left;
     ImageBuffer right;
-    std::atomic<bool> is_on_loan = false;
+    std::atomic<bool> is_on_loan;  // false at first
   };
 
   [[nodiscard]] FrameFault read_pair(const DatasetRow& row, Slot& slot) const;
