@@ -35,6 +35,7 @@ struct Verb {
 };
 constexpr std::array kVerbs = std::to_array<Verb>({
     {"replay", "Run the odometry over a recording or a synthetic scene", declare_replay},
+    {"render", "Write a synthetic stereo recording with exact truth", declare_render},
     {"eval", "Compare an estimated trajectory with the true one", declare_eval},
 });
 

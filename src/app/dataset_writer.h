@@ -4,16 +4,12 @@
 #include <memory>
 #include <string>
 
+#include "app/dataset_layout.h"
 #include "base/result.h"
 #include "base/stereo_frame.h"
 #include "geometry/stereo_rig.h"
 
 namespace darkling {
-
-enum class DatasetLayout {
-  kEuroc,  // mav0/camN/{data/<ns>.png,data.csv,sensor.yaml}, groundtruth.tum (T_world_body)
-  kKitti,  // image_N/<number>.png, calib.txt, times.txt, poses.txt (T_world_left)
-};
 
 // Writes stereo frames with their true poses as a dataset: images first, then the rows that name
 // them.

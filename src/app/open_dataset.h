@@ -5,11 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "app/dataset_layout.h"
 #include "app/open_source.h"
 
 namespace darkling {
-
-enum class DatasetLayout { kKitti, kEuroc };
 
 // What `folder` looks like, complete or not: any of image_0, image_1 or calib.txt is KITTI, mav0 is
 // EuRoC.
