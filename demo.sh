@@ -36,5 +36,5 @@ cat <<END
 The images and their exact truth are in $out, the trajectory is $out.tum, all figures are in
 $out.json. Try another scene, or less light:
   $darkling replay synthetic:quarry
-  $darkling replay synthetic:mine,electrons=30
+  $darkling replay synthetic:mine,electrons=1000
 END
