@@ -221,7 +221,7 @@ std::optional<Vector3> FrameRenderer::surface_point(double t_s, Eye eye,
   if (!ray) return std::nullopt;
   const Se3 T_scene_eye =
       path_.T_scene_body(t_s) * (is_left ? rig_.T_body_rawleft : rig_.T_body_rawright);
-  const Vector3 origin = T_scene_eye.translation();
+  const Vector3& origin = T_scene_eye.translation();
   const Vector3 direction = T_scene_eye.R() * *ray;
   double nearest = 1e9;
   for (const Chunk& chunk : scene_.mesh.chunks) {

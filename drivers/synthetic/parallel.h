@@ -13,6 +13,7 @@ template <class Body>
 void for_each_row(int rows, const Body& body) {
   const int workers = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8);
   std::vector<std::thread> threads;
+  threads.reserve(workers);
   for (int w = 0; w < workers; ++w) {
     threads.emplace_back([w, workers, rows, &body] {
       for (int row = w; row < rows; row += workers) body(row);

@@ -22,49 +22,57 @@ constexpr float kDoorHeight_m = 2.04f;
 constexpr float kRecess_m = 0.09f;
 constexpr float kLampSpacing_m = 2.4f;
 
+// Part of a wall: from s0 to s1 along it and from z0 to z1 above the floor, m.
+struct Area {
+  float s0, s1, z0, z1;
+};
+
+struct Finish {
+  int material;
+  float tint;
+};
+
 struct Builder {
   Mesh& mesh;
   std::uint32_t seed;
 
   // A piece of the wall's plane, `out_m` towards the room.
-  void face(const Wall& w, float s0, float s1, float z0, float z1, float out_m, int material,
-            float tint) {
-    if (s1 - s0 < 0.005f) return;
-    add_panel({.origin = w.at(s0, z0, out_m),
-               .a = (s1 - s0) * w.along,
-               .b = (z1 - z0) * Vec3f::UnitZ(),
-               .material = material,
+  void face(const Wall& w, const Area& area, float out_m, const Finish& finish) {
+    if (area.s1 - area.s0 < 0.005f) return;
+    add_panel({.origin = w.at(area.s0, area.z0, out_m),
+               .a = (area.s1 - area.s0) * w.along,
+               .b = (area.z1 - area.z0) * Vec3f::UnitZ(),
+               .material = finish.material,
                .facet_m = 0.2f,
-               .u0 = s0 + 1.7f * unit_float(seed),
-               .v0 = z0,
-               .tint = tint},
+               .u0 = area.s0 + 1.7f * unit_float(seed),
+               .v0 = area.z0,
+               .tint = finish.tint},
               mesh);
   }
 
-  // A box on the wall: [s0, s1] × [z0, z1], standing out by `thick_m`.
-  void block(const Wall& w, float s0, float s1, float z0, float z1, float thick_m, int material,
-             float tint) {
-    add_box({.centre = w.at(0.5f * (s0 + s1), 0.5f * (z0 + z1), 0.5f * thick_m),
-             .half = {0.5f * (s1 - s0) * w.along, 0.5f * thick_m * w.inward,
-                      0.5f * (z1 - z0) * Vec3f::UnitZ()},
-             .material = material,
+  // A box on the wall that stands out by `thick_m`.
+  void block(const Wall& w, const Area& area, float thick_m, const Finish& finish) {
+    add_box({.centre = w.at(0.5f * (area.s0 + area.s1), 0.5f * (area.z0 + area.z1), 0.5f * thick_m),
+             .half = {0.5f * (area.s1 - area.s0) * w.along, 0.5f * thick_m * w.inward,
+                      0.5f * (area.z1 - area.z0) * Vec3f::UnitZ()},
+             .material = finish.material,
              .facet_m = 0.25f,
-             .tint = tint},
+             .tint = finish.tint},
             0.0f, seed++, mesh);
   }
 
   void plain(const Wall& w, float s0, float s1) {
-    face(w, s0, s1, 0.0f, kDado_m, 0.0f, kPlaster, 0.62f);
-    face(w, s0, s1, kDado_m, kHeight_m, 0.0f, kPlaster, 1.0f);
+    face(w, {s0, s1, 0.0f, kDado_m}, 0.0f, {kPlaster, 0.62f});
+    face(w, {s0, s1, kDado_m, kHeight_m}, 0.0f, {kPlaster, 1.0f});
     if (s1 - s0 < 0.02f) return;
-    block(w, s0, s1, 0.0f, 0.10f, 0.014f, kFrame, 0.55f);
-    block(w, s0, s1, kDado_m - 0.02f, kDado_m + 0.02f, 0.010f, kFrame, 0.8f);
+    block(w, {s0, s1, 0.0f, 0.10f}, 0.014f, {kFrame, 0.55f});
+    block(w, {s0, s1, kDado_m - 0.02f, kDado_m + 0.02f}, 0.010f, {kFrame, 0.8f});
   }
 
   void door(const Wall& w, float s0) {
     const float s1 = s0 + kDoorWidth_m;
     const float tint = 0.6f + 0.7f * unit_float(seed * 7u + 1u);
-    face(w, s0, s1, kDoorHeight_m, kHeight_m, 0.0f, kPlaster, 1.0f);
+    face(w, {s0, s1, kDoorHeight_m, kHeight_m}, 0.0f, {kPlaster, 1.0f});
     const Vec3f up = kDoorHeight_m * Vec3f::UnitZ();
     add_panel({.origin = w.at(s1, 0.0f, -kRecess_m),  // grain upright
                .a = up,
@@ -86,33 +94,34 @@ struct Builder {
                .material = kFrame,
                .tint = 0.7f},
               mesh);
-    block(w, s0 - 0.06f, s0, 0.0f, kDoorHeight_m + 0.06f, 0.025f, kFrame, 0.75f);
-    block(w, s1, s1 + 0.06f, 0.0f, kDoorHeight_m + 0.06f, 0.025f, kFrame, 0.75f);
-    block(w, s0 - 0.06f, s1 + 0.06f, kDoorHeight_m, kDoorHeight_m + 0.06f, 0.025f, kFrame, 0.75f);
+    block(w, {s0 - 0.06f, s0, 0.0f, kDoorHeight_m + 0.06f}, 0.025f, {kFrame, 0.75f});
+    block(w, {s1, s1 + 0.06f, 0.0f, kDoorHeight_m + 0.06f}, 0.025f, {kFrame, 0.75f});
+    block(w, {s0 - 0.06f, s1 + 0.06f, kDoorHeight_m, kDoorHeight_m + 0.06f}, 0.025f,
+          {kFrame, 0.75f});
     // Kick plate, handle and a name plate.
     Wall leaf = w;
     leaf.start -= kRecess_m * w.inward;
-    block(leaf, s0 + 0.04f, s1 - 0.04f, 0.03f, 0.24f, 0.004f, kMetal, 1.0f);
-    block(leaf, s0 + 0.07f, s0 + 0.20f, 1.03f, 1.06f, 0.05f, kMetal, 1.3f);
-    block(leaf, s0 + 0.30f, s0 + 0.62f, 1.48f, 1.60f, 0.006f, kPoster, 1.0f);
+    block(leaf, {s0 + 0.04f, s1 - 0.04f, 0.03f, 0.24f}, 0.004f, {kMetal, 1.0f});
+    block(leaf, {s0 + 0.07f, s0 + 0.20f, 1.03f, 1.06f}, 0.05f, {kMetal, 1.3f});
+    block(leaf, {s0 + 0.30f, s0 + 0.62f, 1.48f, 1.60f}, 0.006f, {kPoster, 1.0f});
   }
 
   // A notice board or a single sheet.
   void poster(const Wall& w, float s0, float width_m) {
     const float low = 0.95f + 0.35f * unit_float(seed * 3u + 2u);
-    block(w, s0 - 0.03f, s0 + width_m + 0.03f, low - 0.03f, low + 0.73f, 0.012f, kDoor, 0.7f);
-    face(w, s0, s0 + width_m, low, low + 0.70f, 0.014f, kPoster, 1.0f);
+    block(w, {s0 - 0.03f, s0 + width_m + 0.03f, low - 0.03f, low + 0.73f}, 0.012f, {kDoor, 0.7f});
+    face(w, {s0, s0 + width_m, low, low + 0.70f}, 0.014f, {kPoster, 1.0f});
   }
 
   void cabinet(const Wall& w, float s0) {
-    block(w, s0, s0 + 0.36f, 0.72f, 1.42f, 0.16f, kMetal, 0.55f);
-    block(w, s0 + 0.05f, s0 + 0.31f, 1.05f, 1.32f, 0.165f, kPoster, 0.9f);
+    block(w, {s0, s0 + 0.36f, 0.72f, 1.42f}, 0.16f, {kMetal, 0.55f});
+    block(w, {s0 + 0.05f, s0 + 0.31f, 1.05f, 1.32f}, 0.165f, {kPoster, 0.9f});
   }
 
   void heater(const Wall& w, float s0) {
     for (int i = 0; i < 9; ++i) {
       const float s = s0 + 0.1f * static_cast<float>(i);
-      block(w, s, s + 0.07f, 0.16f, 0.74f, 0.09f, kFrame, 1.25f);
+      block(w, {s, s + 0.07f, 0.16f, 0.74f}, 0.09f, {kFrame, 1.25f});
     }
   }
 

@@ -44,16 +44,21 @@ float inside_joint(float x, float width) {
 }
 
 // A layer of stones: adds to height and overwrites albedo where a stone lies.
-void add_stones(float u, float v, int period, float extent_m, float share, std::uint32_t seed,
-                Spot& spot) {
-  const Cell cell = tiling_cells(u, v, period, seed);
-  if (unit_float(cell.id ^ 0x5bd1e995u) > share) return;
+struct Stones {
+  int period;     // cells across a repetition
+  float share;    // of cells that hold a stone
+  float pitch_m;  // of a cell
+  std::uint32_t seed;
+};
+
+void add_stones(float u, float v, const Stones& stones, Spot& spot) {
+  const Cell cell = tiling_cells(u, v, stones.period, stones.seed);
+  if (unit_float(cell.id ^ 0x5bd1e995u) > stones.share) return;
   const float size = 0.28f + 0.25f * unit_float(cell.id * 3u);
   const float edge = 0.5f * (cell.second - cell.nearest);
   const float dome = std::min(1.0f - cell.nearest / size, 2.5f * edge);
   if (dome <= 0.0f) return;
-  const float pitch_m = extent_m / static_cast<float>(period);
-  spot.height_m += 0.30f * pitch_m * std::sqrt(std::min(dome * 1.6f, 1.0f));
+  spot.height_m += 0.30f * stones.pitch_m * std::sqrt(std::min(dome * 1.6f, 1.0f));
   const float shade = 0.22f + 0.5f * unit_float(cell.id * 7u);
   spot.albedo = lerp(spot.albedo, shade, smooth_step(0.0f, 0.12f, dome));
 }
@@ -86,9 +91,9 @@ Texture gravel_surface(std::uint32_t seed) {
   return make_texture(1024, 3.0f, [seed](float u, float v) {
     const float dust = tiling_noise(u, v, 4, 7, 0.62f, seed);
     Spot spot{0.36f + 0.13f * dust, 0.006f * dust};
-    add_stones(u, v, 190, 3.0f, 0.5f, seed + 1, spot);
-    add_stones(u, v, 83, 3.0f, 0.32f, seed + 2, spot);
-    add_stones(u, v, 31, 3.0f, 0.16f, seed + 3, spot);
+    add_stones(u, v, {190, 0.5f, 3.0f / 190, seed + 1}, spot);
+    add_stones(u, v, {83, 0.32f, 3.0f / 83, seed + 2}, spot);
+    add_stones(u, v, {31, 0.16f, 3.0f / 31, seed + 3}, spot);
     spot.albedo *= 1.0f + 0.25f * tiling_noise(u, v, 170, 2, 0.5f, seed + 9);
     return spot;
   });

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <sstream>
 #include <variant>
+#include <vector>
+
+#include "base/nearest.h"
 
 namespace darkling {
 
@@ -42,18 +45,10 @@ constexpr std::array<Key, 14> kKeys = {{
     {"blur", &SyntheticSpec::blur, 0, 1},
 }};
 
-template <class Names>
-std::string join(const Names& names) {
-  std::string list;
-  for (const auto& name : names) {
-    if (!list.empty()) list += ", ";
-    if constexpr (std::is_same_v<std::decay_t<decltype(name)>, Key>) {
-      list += name.name;
-    } else {
-      list += name;
-    }
-  }
-  return list;
+std::vector<std::string_view> key_names() {
+  std::vector<std::string_view> names;
+  for (const Key& key : kKeys) names.push_back(key.name);
+  return names;
 }
 
 std::string allowed_range(const Key& key) {
@@ -88,8 +83,8 @@ Result<void> check_range(const Key& key, double value, std::string_view found) {
 Result<void> set_synthetic_key(SyntheticSpec& spec, std::string_view name, std::string_view value) {
   const Key* key = find_key(name);
   if (key == nullptr) {
-    return failure(ExitCode::kUsage,
-                   "synthetic: unknown key \"" + std::string(name) + "\"; known: " + join(kKeys));
+    return failure(ExitCode::kUsage, "synthetic: unknown key \"" + std::string(name) + "\"" +
+                                         did_you_mean(name, key_names()));
   }
   double number = 0.0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
@@ -114,8 +109,8 @@ Result<void> check_synthetic(SyntheticSpec& spec) {
   bool is_known = false;
   for (std::string_view scene : kScenes) is_known = is_known || scene == spec.scene;
   if (!is_known) {
-    return failure(ExitCode::kUsage,
-                   "synthetic: unknown scene \"" + spec.scene + "\"; known: " + join(kScenes));
+    return failure(ExitCode::kUsage, "synthetic: unknown scene \"" + spec.scene + "\"" +
+                                         did_you_mean(spec.scene, kScenes));
   }
   if (spec.height == 0) spec.height = (spec.width * 3 + 2) / 4;
   for (const Key& key : kKeys) {
@@ -137,7 +132,7 @@ Result<SyntheticSpec> parse_synthetic(std::string_view text) {
     return failure(ExitCode::kUsage, "\"" + std::string(text) +
                                          "\" is not a synthetic source; allowed: "
                                          "synthetic:SCENE[,key=value...] with SCENE one of " +
-                                         join(kScenes));
+                                         join_names(kScenes));
   }
   text.remove_prefix(kPrefix.size());
   SyntheticSpec spec;
@@ -149,8 +144,9 @@ Result<SyntheticSpec> parse_synthetic(std::string_view text) {
     const std::string_view item = text.substr(0, comma);
     const std::size_t equals = item.find('=');
     if (equals == std::string_view::npos) {
-      return failure(ExitCode::kUsage, "synthetic: \"" + std::string(item) +
-                                           "\" is not key=value; known keys: " + join(kKeys));
+      return failure(ExitCode::kUsage,
+                     "synthetic: \"" + std::string(item) +
+                         "\" is not key=value; known keys: " + join_names(key_names()));
     }
     const auto set = set_synthetic_key(spec, item.substr(0, equals), item.substr(equals + 1));
     if (!set) return tl::unexpected<Error>(set.error());

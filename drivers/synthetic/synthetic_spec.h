@@ -34,7 +34,7 @@ struct SyntheticSpec {
 [[nodiscard]] Result<SyntheticSpec> parse_synthetic(std::string_view text);
 
 // Sets one key from its text. @return kUsage as parse_synthetic().
-[[nodiscard]] Result<void> set_synthetic_key(SyntheticSpec& spec, std::string_view key,
+[[nodiscard]] Result<void> set_synthetic_key(SyntheticSpec& spec, std::string_view name,
                                              std::string_view value);
 
 // Refuses unknown scenes and values out of range; fills in the height.

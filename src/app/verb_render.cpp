@@ -92,9 +92,9 @@ Result<int> run_render(const RenderOptions& options) {
   const auto closed = (*writer)->close();
   if (!done) return tl::unexpected(done.error());
   if (!closed) return tl::unexpected(closed.error());
-  std::printf("%d frames of %s, %d x %d px, %s layout: %s\nTry: darkling replay %s\n", *done,
-              spec.scene.c_str(), spec.width, spec.height, is_euroc ? "EuRoC" : "KITTI",
-              options.folder.c_str(), options.folder.c_str());
+  std::printf("%d frames of %s, %d x %d px, %s layout: %s\n", *done, spec.scene.c_str(), spec.width,
+              spec.height, is_euroc ? "EuRoC" : "KITTI", options.folder.c_str());
+  if (*done > 0) std::printf("Try: darkling replay %s\n", options.folder.c_str());
   return is_stop_requested() ? kInterruptedStatus : 0;
 }
 
