@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/open_dataset.h"
-#include "io/nearest.h"
+#include "base/nearest.h"
 
 namespace darkling {
 

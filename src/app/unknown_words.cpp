@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "io/nearest.h"
+#include "base/nearest.h"
 
 namespace darkling {
 

@@ -10,7 +10,7 @@
 
 #include "app/replay.h"
 #include "app/verb.h"
-#include "io/nearest.h"
+#include "base/nearest.h"
 
 namespace darkling {
 

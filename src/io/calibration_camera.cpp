@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/nearest.h"
 #include "base/number_text.h"
 #include "io/calibration_yaml.h"
-#include "io/nearest.h"
 
 namespace darkling {
 

@@ -9,8 +9,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "base/nearest.h"
 #include "base/text_file.h"
-#include "io/nearest.h"
 
 namespace darkling {
 

@@ -33,12 +33,17 @@ TEST(ParseSynthetic, DerivesTheHeightUnlessItIsGiven) {
 }
 
 TEST(ParseSynthetic, NamesTheKnownScenesForAnUnknownOne) {
-  EXPECT_THAT(refusal("synthetic:cave"), HasSubstr("\"cave\"; known: mine, quarry, corridor"));
-  EXPECT_THAT(refusal("synthetic:"), HasSubstr("known: mine"));
+  EXPECT_THAT(refusal("synthetic:cave"), HasSubstr("\"cave\"; known are mine, quarry, corridor"));
+  EXPECT_THAT(refusal("synthetic:"), HasSubstr("known are mine"));
+}
+
+TEST(ParseSynthetic, SuggestsTheNearestSceneAndKey) {
+  EXPECT_THAT(refusal("synthetic:mne"), HasSubstr("\"mne\", did you mean 'mine'?"));
+  EXPECT_THAT(refusal("synthetic:mine,frmes=3"), HasSubstr("\"frmes\", did you mean 'frames'?"));
 }
 
 TEST(ParseSynthetic, NamesTheKnownKeysForAnUnknownOne) {
-  EXPECT_THAT(refusal("synthetic:mine,frame=3"), HasSubstr("\"frame\"; known: frames, seed"));
+  EXPECT_THAT(refusal("synthetic:mine,fps=3"), HasSubstr("\"fps\"; known are frames, seed"));
 }
 
 TEST(ParseSynthetic, SaysTheRangeForAValueOutsideIt) {
