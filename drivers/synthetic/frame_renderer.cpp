@@ -118,8 +118,10 @@ Shader::Moment FrameRenderer::make_moment(const Lens& lens, const Se3& T_body_ey
   if (rig_.left.distortion == Distortion::kNone) {
     // Pixels of the guide are the samples themselves: shift it onto them.
     const std::size_t first = pattern * lens.transmission.size();
-    view.cx = lens.nearest[first] % view.width - lens.rays[first].x() * view.focal_px;
-    view.cy = lens.nearest[first] / view.width - lens.rays[first].y() * view.focal_px;
+    const int column = lens.nearest[first] % view.width;
+    const int row = lens.nearest[first] / view.width;
+    view.cx = column - lens.rays[first].x() * view.focal_px;
+    view.cy = row - lens.rays[first].y() * view.focal_px;
   }
   moment.lamp = (T_scene_body * scene_.headlamp.p_body.cast<double>()).cast<float>();
   moment.lamp_axis = (T_scene_body.R() * scene_.headlamp.axis_body.cast<double>()).cast<float>();

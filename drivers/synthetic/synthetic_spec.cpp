@@ -47,6 +47,7 @@ constexpr std::array<Key, 14> kKeys = {{
 
 std::vector<std::string_view> key_names() {
   std::vector<std::string_view> names;
+  names.reserve(kKeys.size());
   for (const Key& key : kKeys) names.push_back(key.name);
   return names;
 }
