@@ -18,10 +18,16 @@ constexpr int kMaxIterations = 5;
 constexpr float kConvergedStepPx = 0.005f;
 // The matched pixel is right or it is not: refinement that leaves it found something else.
 constexpr float kMaxChangePx = 1.0f;
+// Root mean square difference over the patch's planes beyond which the eyes do not see the same; as
+// for whole points, unrelated patches are about 110 apart. Without it a covered right eye gave a
+// keyframe, and valid motions nine times too long.
+constexpr float kMaxDistance = 80.0f;
+constexpr int kPatchValues = (2 * kPatchRadius + 1) * (2 * kPatchRadius + 1) * kPlaneCount;
 
 struct PatchFit {
   float gr = 0.0f;  // Σ g · r
   float gg = 0.0f;  // Σ g²
+  float rr = 0.0f;  // Σ r²
 };
 
 // Compares the patch about the left pixel with the right one at disparity d, along the rows.
@@ -37,8 +43,10 @@ PatchFit compare_patch(const PyramidLevel& left, const PyramidLevel& right, int 
       const float value =
           static_cast<float>(r[i]) + du * static_cast<float>(r[i + kPlaneCount] - r[i]);
       const float g = 0.5f * static_cast<float>(l[i + kPlaneCount] - l[i - kPlaneCount]);
-      fit.gr += g * (value - static_cast<float>(l[i]));
+      const float residual = value - static_cast<float>(l[i]);
+      fit.gr += g * residual;
       fit.gg += g * g;
+      fit.rr += residual * residual;
     }
   }
   return fit;
@@ -51,6 +59,7 @@ float refine(const PyramidLevel& left, const PyramidLevel& right, int x, int y, 
     return kNoDisparity;
   }
   float d = d0;
+  float rr = 0.0f;
   for (int i = 0; i < kMaxIterations; ++i) {
     if (static_cast<float>(x - kPatchRadius) - d < 0.0f ||
         static_cast<float>(x + kPatchRadius) - d >= static_cast<float>(width - 2)) {
@@ -58,11 +67,13 @@ float refine(const PyramidLevel& left, const PyramidLevel& right, int x, int y, 
     }
     const PatchFit fit = compare_patch(left, right, x, y, d);
     if (fit.gg <= 0.0f) return kNoDisparity;
+    rr = fit.rr;
     const float step = fit.gr / fit.gg;
     d += step;
     if (std::abs(d - d0) > kMaxChangePx) return kNoDisparity;
     if (std::abs(step) < kConvergedStepPx) break;
   }
+  if (rr > kMaxDistance * kMaxDistance * kPatchValues) return kNoDisparity;
   return std::max(d, 0.0f);
 }
 

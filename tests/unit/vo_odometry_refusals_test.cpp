@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the odometry must refuse, or at least not believe.
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "support/kernel_cases.h"
+#include "support/synthetic_run.h"
+#include "vo/limits.h"
+#include "vo/odometry.h"
+
+namespace darkling {
+namespace {
+
+using test::KeptFrame;
+using test::SyntheticRun;
+using ::testing::HasSubstr;
+
+constexpr char kCorridor[] = "corridor,frames=12,width=160,seed=2";
+
+MonotonicTime stopped_clock() {
+  return MonotonicTime();
+}
+
+// How far a valid estimate may be off in a dozen frames.
+constexpr double kRight_m = 0.03;
+constexpr double kRight_rad = 0.01;
+
+bool is_confident_and_wrong(const Estimate& estimate, const Se3& T_world_body) {
+  if (estimate.status != TrackStatus::kValid) return false;
+  const Vector6 error = minus(estimate.T_world_body, T_world_body);
+  return !(error.head<3>().norm() < kRight_m && error.tail<3>().norm() < kRight_rad);
+}
+
+bool is_finite(const Estimate& e) {
+  return e.T_world_left.matrix().allFinite() && e.T_world_body.matrix().allFinite() &&
+         e.T_previous_body.matrix().allFinite() && std::isfinite(e.cost) &&
+         std::isfinite(e.visible_fraction);
+}
+
+struct SpoiltRun {
+  const char* name;
+  // Makes frame `i` of the run into what the cameras deliver.
+  KeptFrame (*spoil)(const KeptFrame& frame, unsigned i);
+};
+
+KeptFrame left_twice(const KeptFrame& frame, unsigned) {
+  KeptFrame spoilt = frame;
+  spoilt.right = spoilt.left;
+  return spoilt;
+}
+KeptFrame dark_right(const KeptFrame& frame, unsigned) {
+  KeptFrame spoilt = frame;
+  spoilt.right.assign(spoilt.right.size(), 0);
+  return spoilt;
+}
+KeptFrame black(const KeptFrame& frame, unsigned) {
+  return test::flat_frame(frame, 0);
+}
+KeptFrame white(const KeptFrame& frame, unsigned) {
+  return test::flat_frame(frame, 255);
+}
+KeptFrame blinking(const KeptFrame& frame, unsigned i) {
+  return test::flat_frame(frame, i % 2 == 0 ? 10 : 240);
+}
+KeptFrame noise(const KeptFrame& frame, unsigned i) {
+  return test::noise_frame(frame, i);
+}
+KeptFrame noise_after_three(const KeptFrame& frame, unsigned i) {
+  return i < 3 ? frame : test::noise_frame(frame, i);
+}
+KeptFrame white_after_three(const KeptFrame& frame, unsigned i) {
+  return i < 3 ? frame : test::flat_frame(frame, 255);
+}
+
+class EachSpoiltRun : public ::testing::TestWithParam<SpoiltRun> {};
+
+TEST_P(EachSpoiltRun, IsNeverFollowedWithConfidenceToAWrongPose) {
+  const SyntheticRun& run = test::synthetic_run(kCorridor);
+  const auto odometry = Odometry::create({.width_px = 160}, run.rig, KernelTable(), stopped_clock);
+  ASSERT_TRUE(odometry);
+  for (unsigned i = 0; i < run.frames.size(); ++i) {
+    const KeptFrame frame = GetParam().spoil(run.frames[i], i);
+    const Estimate estimate = (*odometry)->track(frame.at(i));
+    ASSERT_TRUE(is_finite(estimate)) << i;
+    EXPECT_FALSE(is_confident_and_wrong(estimate, run.T_world_body[i]))
+        << "frame " << i << " at " << estimate.T_world_body.translation().transpose()
+        << " instead of " << run.T_world_body[i].translation().transpose() << ", cost "
+        << estimate.cost << ", seen " << estimate.visible_fraction;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Odometry, EachSpoiltRun,
+                         ::testing::Values(SpoiltRun{"LeftEyeTwice", left_twice},
+                                           SpoiltRun{"DarkRightEye", dark_right},
+                                           SpoiltRun{"Black", black}, SpoiltRun{"White", white},
+                                           SpoiltRun{"Blinking", blinking},
+                                           SpoiltRun{"Noise", noise},
+                                           SpoiltRun{"NoiseAfterThree", noise_after_three},
+                                           SpoiltRun{"WhiteAfterThree", white_after_three}),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(ConfidentAndWrong, IsNoticed) {
+  Estimate estimate;
+  estimate.status = TrackStatus::kValid;
+  const Se3 away(Eigen::Quaterniond::Identity(), Vector3(0.0, 0.05, 0.0));
+  EXPECT_TRUE(is_confident_and_wrong(estimate, away));
+  EXPECT_FALSE(is_confident_and_wrong(estimate, Se3()));
+  estimate.status = TrackStatus::kDegraded;
+  EXPECT_FALSE(is_confident_and_wrong(estimate, away));
+}
+
+TEST(OdometryCreate, WorksAtTheSmallestSize) {
+  const SyntheticRun& run = test::synthetic_run("corridor,frames=3,width=64,height=48,seed=2");
+  const auto odometry = Odometry::create({.width_px = 64, .points_per_level = kMinPointsPerLevel},
+                                         run.rig, KernelTable(), stopped_clock);
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(is_finite((*odometry)->track(run.frames[static_cast<std::size_t>(i)].at(i))));
+  }
+}
+
+TEST(OdometryCreate, FitsItsArenaAtEverySize) {
+  StereoRig rig = test::synthetic_run(kCorridor).rig;
+  for (const double factor : {4.0, 8.0}) {
+    StereoRig larger = rig;
+    for (Camera* camera : {&larger.left, &larger.right}) {
+      camera->width = static_cast<int>(160 * factor);
+      camera->height = static_cast<int>(120 * factor);
+      camera->fx *= factor;
+      camera->fy *= factor;
+      camera->cx = (camera->cx + 0.5) * factor - 0.5;
+      camera->cy = (camera->cy + 0.5) * factor - 0.5;
+    }
+    for (const int points : {kMinPointsPerLevel, kMaxPointsPerLevel}) {
+      for (const int width_px : {64, 97, 320, 0}) {
+        const auto odometry = Odometry::create({.width_px = width_px, .points_per_level = points},
+                                               larger, KernelTable(), stopped_clock);
+        ASSERT_TRUE(odometry) << odometry.error().message;
+        EXPECT_GT((*odometry)->arena_bytes(), 0u);
+      }
+    }
+  }
+}
+
+TEST(OdometryCreate, KeepsItsBudgetAt320By240) {
+  const SyntheticRun& run = test::synthetic_run("corridor,frames=1,width=320");
+  const auto odometry = Odometry::create({.width_px = 320}, run.rig, KernelTable(), stopped_clock);
+  ASSERT_TRUE(odometry);
+  EXPECT_LT((*odometry)->arena_bytes(), 8u << 20);
+}
+
+TEST(OdometryCreate, RefusesWhatIsOutsideTheLimitsByName) {
+  const SyntheticRun& run = test::synthetic_run(kCorridor);
+  const auto refused = [&](const OdometryConfig& config) {
+    const auto odometry = Odometry::create(config, run.rig, KernelTable(), stopped_clock);
+    EXPECT_FALSE(odometry);
+    EXPECT_EQ(odometry.error().code, ExitCode::kConfiguration);
+    return odometry.error().message;
+  };
+  EXPECT_THAT(refused({.width_px = 63}), HasSubstr("thumbnail width 63 is outside 64…1280"));
+  EXPECT_THAT(refused({.width_px = 161}), HasSubstr("161"));
+  EXPECT_THAT(refused({.width_px = 160, .points_per_level = 10}),
+              HasSubstr("points per level 10 is outside 50…4000"));
+  EXPECT_THAT(refused({.width_px = 160, .points_per_level = 5000}), HasSubstr("5000"));
+}
+
+}  // namespace
+}  // namespace darkling
