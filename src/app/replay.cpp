@@ -85,6 +85,13 @@ Estimate follow(Run& run, const WaitResult& next) {
   return estimate;
 }
 
+tl::unexpected<Error> swapped_eyes(const Recording& recording) {
+  return failure(ExitCode::kBadInput,
+                 recording.name +
+                     ": left and right are swapped: the images agree far better the other way "
+                     "round. Exchange the two image folders (or the two cameras).");
+}
+
 Result<void> play(Run& run, Pace pace) {
   Pacer pacer(pace);
   ProgressLine progress(run.recording.frame_count);
@@ -100,6 +107,7 @@ Result<void> play(Run& run, Pace pace) {
     const Estimate estimate = follow(run, next);
     run.outputs.append(estimate);
     progress.show(run.statistics.counts().frames, estimate.status);
+    if ((estimate.reasons & kReasonEyesSwapped) != 0) return swapped_eyes(run.recording);
   }
   return {};
 }

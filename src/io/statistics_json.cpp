@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, kReasonCount> kReasonNames = {
     "low_texture",   "low_overlap", "not_converged", "ill_conditioned",
-    "residual_high", "dropped",     "no_depth"};
+    "residual_high", "dropped",     "no_depth",      "eyes_swapped"};
 
 template <class T>
 Json json_or_null(const std::optional<T>& value) {

@@ -84,19 +84,20 @@ void add_point(const TemplatePoint& point, const PointResidual& residual, double
   sum.g += weight * (double(residual.bx) * Ju + double(residual.by) * Jv);
 }
 
-// One robust weight a point, from its descriptor distance: Cauchy's. Half the median as its scale
-// trusts the well-matched half: from 1.2 medians down to this, drift and RPE fell everywhere by 2
-// to 10 %; at a third of the median there was no more to gain.
+// One robust weight a point, from its descriptor distance: Geman and McClure's, on the scale of the
+// median, so that points that do not match have no say. Against Cauchy's of the same efficiency the
+// drift of a car fell by a tenth (steps of 3.6 m: by a fifth); RPE of a drone rose by 2 to 5 %.
 NormalEquations accumulate(const TemplateLevel& level, std::span<const PointResidual> residuals,
                            int visible, double focal_px) {
   const double scale =
-      std::max(1.0, 0.5 * static_cast<double>(median_distance(residuals, visible)));
+      std::max(1.0, 0.8 * static_cast<double>(median_distance(residuals, visible)));
   NormalEquations sum;
   const std::span<const TemplatePoint> points = level.points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (residuals[i].distance < 0.0f) continue;
     const double e = static_cast<double>(residuals[i].distance) / scale;
-    add_point(points[i], residuals[i], 1.0 / (1.0 + e * e), focal_px, sum);
+    const double w = 1.0 / (1.0 + e * e);
+    add_point(points[i], residuals[i], w * w, focal_px, sum);
   }
   return sum;
 }

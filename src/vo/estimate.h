@@ -26,8 +26,9 @@ enum Reason : std::uint32_t {
   kReasonResidualHigh = 1u << 4,    // aligned, but the images do not match
   kReasonDropped = 1u << 5,         // no usable pair: lost or unreadable
   kReasonNoDepth = 1u << 6,         // stereo found no depth to track by
+  kReasonEyesSwapped = 1u << 7,     // the left image is the right camera's
 };
-inline constexpr int kReasonCount = 7;
+inline constexpr int kReasonCount = 8;
 
 // The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
 enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect };

@@ -65,24 +65,30 @@ float equiangular_offset(float left, float middle, float right) {
   return rise > 0.0f ? 0.5f * (left - right) / rise : 0.0f;
 }
 
-// Writes one row of disparities; returns how many are known.
-int choose_winners(const StereoMatcher& m, int y) {
+struct RowOutcome {
+  int known = 0;          // pixels that got a disparity
+  std::int64_t cost = 0;  // of the winners, where every disparity lies inside the other image
+};
+
+// Writes one row of disparities.
+RowOutcome choose_winners(const StereoMatcher& m, int y) {
   const int D = m.disparities;
   float* out = m.disparity.row(y);
-  int known = 0;
+  RowOutcome outcome;
   for (int x = 0; x < m.paths.width; ++x) {
     out[x] = kNoDisparity;
     const std::uint16_t* sum = m.sum.data() + x * D;
     const int reach = std::min(D, x + 1);
     const int d = static_cast<int>(std::min_element(sum, sum + reach) - sum);
+    if (reach == D) outcome.cost += sum[d];
     if (d == D - 1) continue;  // the minimum may lie beyond what was searched
     if (std::abs(m.right_disparity[x - d] - d) > 1) continue;
     float offset = 0.0f;
     if (d > 0 && d + 1 < reach) offset = equiangular_offset(sum[d - 1], sum[d], sum[d + 1]);
     out[x] = static_cast<float>(d) + offset;
-    ++known;
+    ++outcome.known;
   }
-  return known;
+  return outcome;
 }
 
 }  // namespace
@@ -127,6 +133,7 @@ double match_stereo(const KernelTable& kernels, ImageView<const std::uint8_t> le
   const std::size_t row_size = std::size_t(width) * m.disparities;
   reset_path_rows(m.paths);
   int known = 0;
+  std::int64_t cost = 0;
   int next_row = 0;  // of Hamming distances
   for (int y = 0; y < height; ++y) {
     for (; next_row <= std::min(y + kWindowRadius, height - 1); ++next_row) {
@@ -137,9 +144,24 @@ double match_stereo(const KernelTable& kernels, ImageView<const std::uint8_t> le
     sum_window(m, y, height);
     kernels.semi_global_row(m.cost, kPenalties, m.paths, m.sum);
     find_right_winners(m);
-    known += choose_winners(m, y);
+    const RowOutcome row = choose_winners(m, y);
+    known += row.known;
+    cost += row.cost;
   }
+  const double compared = static_cast<double>(std::max(width - m.disparities + 1, 1)) * height;
+  m.mean_cost = static_cast<double>(cost) / compared;
   return static_cast<double>(known) / (static_cast<double>(width) * height);
+}
+
+bool are_eyes_swapped(const KernelTable& kernels, ImageView<const std::uint8_t> left_codes,
+                      ImageView<const std::uint8_t> right_codes, StereoMatcher& matcher) {
+  // Eyes the right way round agree 2.3 to 3 times better than the wrong way, on a car's, a drone's
+  // and rendered images from 160 to 376 px wide.
+  constexpr double kClearlyBetter = 1.5;
+  (void)match_stereo(kernels, right_codes, left_codes, matcher);
+  const double cost_the_other_way = matcher.mean_cost;
+  (void)match_stereo(kernels, left_codes, right_codes, matcher);
+  return matcher.mean_cost > kClearlyBetter * cost_the_other_way;
 }
 
 }  // namespace darkling

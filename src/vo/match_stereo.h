@@ -23,6 +23,8 @@ struct StereoMatcher {
   std::span<std::uint16_t> right_best;      // one row: the right eye's lowest sum …
   std::span<std::uint8_t> right_disparity;  // … and its disparity
   ImageView<float> disparity;               // the result; px, kNoDisparity where unknown
+  // Of the winning path sums: how well the eyes agree.
+  double mean_cost = 0.0;
 };
 
 // The disparities searched for a thumbnail of this width: a sixth of it, in steps of 16. At 310 px
@@ -36,5 +38,13 @@ struct StereoMatcher {
 // @return the share of left pixels that got a disparity, 0…1.
 double match_stereo(const KernelTable& kernels, ImageView<const std::uint8_t> left_codes,
                     ImageView<const std::uint8_t> right_codes, StereoMatcher& matcher);
+
+// Whether the eyes are the wrong way round: matched the other way, the images agree far better.
+// Says no where there is nothing to see, or all is so far away that both ways are the same.
+// Leaves the matcher as match_stereo() of the eyes as given does. Cost: two match_stereo().
+[[nodiscard]] bool are_eyes_swapped(const KernelTable& kernels,
+                                    ImageView<const std::uint8_t> left_codes,
+                                    ImageView<const std::uint8_t> right_codes,
+                                    StereoMatcher& matcher);
 
 }  // namespace darkling

@@ -50,7 +50,13 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
   }
   {
     StageTimer timer(read_clock, estimate, Stage::kStereo);
-    (void)match_stereo(kernels, left_codes, codes_of(scratch, right[0]), matcher);
+    const ImageView<std::uint8_t> right_codes = codes_of(scratch, right[0]);
+    if (!keyframe.is_empty()) {
+      (void)match_stereo(kernels, left_codes, right_codes, matcher);
+    } else if (are_eyes_swapped(kernels, left_codes, right_codes, matcher)) {
+      estimate.reasons |= kReasonEyesSwapped;
+      return false;
+    }
   }
   StageTimer timer(read_clock, estimate, Stage::kSelect);
   for (int l = 0; l < static_cast<int>(left.size()); ++l) {
@@ -168,7 +174,7 @@ void Odometry::State::start(const StereoFrame& frame, Estimate& estimate) {
     estimate.point_count = keyframe.levels[0].count;
   } else {
     estimate.status = TrackStatus::kLost;
-    estimate.reasons = kReasonNoDepth;
+    if (estimate.reasons == kReasonNone) estimate.reasons = kReasonNoDepth;
     estimate.quality = -1;
   }
   report(T_world_previous, estimate);

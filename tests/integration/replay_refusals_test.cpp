@@ -68,6 +68,14 @@ TEST_F(ReplayRefuses, ABadSourceWithoutTouchingTheOutputs) {
   EXPECT_EQ(test::read_text(kept), "of an earlier run");
 }
 
+TEST_F(ReplayRefuses, SwappedEyesByName) {
+  const std::filesystem::path kitti(kitti_);
+  std::filesystem::rename(kitti / "image_0", kitti / "aside");
+  std::filesystem::rename(kitti / "image_1", kitti / "image_0");
+  std::filesystem::rename(kitti / "aside", kitti / "image_1");
+  expect(65, "left and right are swapped");
+}
+
 TEST_F(ReplayRefuses, AnAbsentOrMalformedTruth) {
   expect(66, "absent.txt", {"--truth", folder_ / "absent.txt"});
   const std::string malformed = folder_ / "malformed.txt";

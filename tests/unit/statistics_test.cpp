@@ -69,7 +69,7 @@ TEST(StatisticsRecorder, AddsUpStepsKeyframesAndReasons) {
   EXPECT_NEAR(s.distance_m, 2.0, 1e-12);
   EXPECT_EQ(s.keyframes, 1);
   EXPECT_EQ(s.resets, 1);
-  EXPECT_EQ(s.reasons, (std::array<std::int64_t, kReasonCount>{0, 1, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(s.reasons, (std::array<std::int64_t, kReasonCount>{0, 1, 0, 0, 0, 0, 1, 0}));
 }
 
 TEST(StatisticsRecorder, TimesFramesThatWereTrackedOnly) {

@@ -209,6 +209,22 @@ TEST(Odometry, WaitsForDepthBeforeItStarts) {
   EXPECT_TRUE(first.is_keyframe);
 }
 
+TEST(Odometry, NamesSwappedEyesAndDoesNotStart) {
+  for (const char* scene : {"mine", "quarry", "corridor"}) {
+    const SyntheticRun& run =
+        test::synthetic_run(std::string(scene) + ",frames=2,width=160,seed=2");
+    const auto odometry = make_odometry(run);
+    for (int i = 0; i < 2; ++i) {
+      StereoFrame swapped = run.frames[i].at(i);
+      std::swap(swapped.left, swapped.right);
+      const Estimate estimate = odometry->track(swapped);
+      EXPECT_EQ(estimate.status, TrackStatus::kLost) << scene;
+      EXPECT_EQ(estimate.reasons, kReasonEyesSwapped) << scene;
+      EXPECT_FALSE(estimate.is_keyframe) << scene;
+    }
+  }
+}
+
 TEST(Odometry, HardlyNoticesHalfTheGain) {
   const SyntheticRun& run = test::synthetic_run(kCorridor);
   std::vector<KeptFrame> dim = run.frames;
