@@ -149,6 +149,7 @@ TEST_P(EachSampleResiduals, EqualsTheReferenceBitForBitForEveryCount) {
     std::vector<PointResidual> expected(points.size());
     EXPECT_EQ(GetParam().sample_residuals(points, warp, planes_.view(), out),
               sample_residuals_ref(points, warp, planes_.view(), expected));
+    if (count == 0) continue;  // memcmp may not see the null pointer of an empty vector
     ASSERT_EQ(std::memcmp(out.data(), expected.data(), out.size() * sizeof(PointResidual)), 0);
   }
 }
