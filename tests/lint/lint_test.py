@@ -66,7 +66,7 @@ class CheckLayers(LintTest):
 class CheckFiles(LintTest):
     def test_lets_an_ordinary_file_pass(self):
         self.write("src/base/a.h", SPDX + "struct Lease {};\n")
-        self.write("README.md", "Write to /etc/darkling and ~/work/x.\n")
+        self.write("README.md", "Write to /etc/darkling and ~/logs/x.\n")
         self.assertEqual(list(check_files.faults(self.root)), [])
 
     def test_finds_a_missing_licence(self):

@@ -3,6 +3,8 @@
 // what was measured is kept with each test's result.
 #include "support/recordings.h"
 
+#include <ostream>
+
 #include <gtest/gtest.h>
 
 #include "integration/darkling.h"
@@ -33,6 +35,10 @@ struct RecordedCase {
   std::vector<std::string> options;
   Bounds bounds;
 };
+
+void PrintTo(const RecordedCase& one, std::ostream* out) {
+  *out << one.name;
+}
 
 class EachRecording : public ::testing::TestWithParam<RecordedCase> {};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the odometry must refuse, or at least not believe.
 #include <cmath>
+#include <ostream>
 
 #include <gmock/gmock.h>
 
@@ -43,6 +44,10 @@ struct SpoiltRun {
   // Makes frame `i` of the run into what the cameras deliver.
   KeptFrame (*spoil)(const KeptFrame& frame, unsigned i);
 };
+
+void PrintTo(const SpoiltRun& one, std::ostream* out) {
+  *out << one.name;
+}
 
 KeptFrame left_twice(const KeptFrame& frame, unsigned) {
   KeptFrame spoilt = frame;
