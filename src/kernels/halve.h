@@ -13,5 +13,8 @@ namespace darkling {
 using HalveFn = void(ImageView<const std::uint8_t> src, ImageView<std::uint8_t> dst);
 
 HalveFn halve_ref;
+HalveFn halve_sse41;
+HalveFn halve_avx2;
+HalveFn halve_neon;
 
 }  // namespace darkling

@@ -27,14 +27,21 @@ bool has_avx2(const CpuFeatures& cpu) {
   return cpu.sse41 && cpu.avx2;
 }
 
-void overwrite_sse41(KernelTable& table) {
-  table.census = census_sse41;
-}
+void overwrite_sse41(KernelTable&) {}
 
 // A kernel without a wider variant keeps the narrower one.
 void overwrite_avx2(KernelTable& table) {
   overwrite_sse41(table);
-  table.census = census_avx2;
+  table.remap_area = remap_area_avx2;
+  table.halve = halve_avx2;
+  table.bit_planes = bit_planes_avx2;
+  table.saliency = saliency_avx2;
+  table.sample_residuals = sample_residuals_avx2;
+  table.normal_equations = normal_equations_avx2;
+  table.hamming_row = hamming_row_avx2;
+  table.semi_global_row = semi_global_row_avx2;
+  table.match_codes = match_codes_avx2;
+  table.compare_patch = compare_patch_avx2;
 }
 #endif
 
@@ -42,9 +49,7 @@ void overwrite_avx2(KernelTable& table) {
 bool has_neon(const CpuFeatures& cpu) {
   return cpu.neon;
 }
-void overwrite_neon(KernelTable& table) {
-  table.census = census_neon;
-}
+void overwrite_neon(KernelTable&) {}
 #endif
 
 // What this build holds, from slowest to fastest.

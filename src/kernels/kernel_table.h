@@ -7,9 +7,9 @@
 #include "base/cpu_features.h"
 #include "base/result.h"
 #include "kernels/bit_planes.h"
-#include "kernels/blur3.h"
-#include "kernels/census.h"
 #include "kernels/halve.h"
+#include "kernels/match_patch.h"
+#include "kernels/normal_equations.h"
 #include "kernels/remap_area.h"
 #include "kernels/saliency.h"
 #include "kernels/sample_residuals.h"
@@ -23,13 +23,14 @@ struct KernelTable {
   const char* name = "ref";  // the instruction set: ref, sse41, avx2 or neon
   RemapAreaFn* remap_area = remap_area_ref;
   HalveFn* halve = halve_ref;
-  Blur3Fn* blur3 = blur3_ref;
-  CensusFn* census = census_ref;
   BitPlanesFn* bit_planes = bit_planes_ref;
   SaliencyFn* saliency = saliency_ref;
   SampleResidualsFn* sample_residuals = sample_residuals_ref;
+  NormalEquationsFn* normal_equations = normal_equations_ref;
   HammingRowFn* hamming_row = hamming_row_ref;
   SemiGlobalRowFn* semi_global_row = semi_global_row_ref;
+  MatchCodesFn* match_codes = match_codes_ref;
+  ComparePatchFn* compare_patch = compare_patch_ref;
 };
 
 // @param name  ref, sse41, avx2, neon, or auto for the best that the processor has.

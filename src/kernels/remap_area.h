@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "base/image_view.h"
 
@@ -26,9 +25,11 @@ inline constexpr int kMaxAreaTaps = 32;  // so reductions up to 1 : 31
 // `box_px` × `box_px` source pixels somewhere in the source.
 struct AreaMap {
   ImageView<const AreaMapEntry> entries;  // one an output pixel
-  // weights[phase * kMaxAreaTaps + tap], tap < taps: the share of the box over each source pixel,
-  // in 1/256; every phase sums to 256. Used along x and along y.
-  std::span<const std::uint16_t> weights;
+  // weights[phase * kMaxAreaTaps + tap]: the share of the box over each source pixel, in 1/256;
+  // every phase sums to 256, and beyond `taps` it is 0. Used along x and along y. Where one pixel
+  // has all the weight, 1/256 of it goes to a neighbour so that a byte can hold it: a grey level at
+  // most, and only beside an edge of half the range.
+  const std::uint8_t* weights = nullptr;
   int taps = 0;
   double box_px = 0.0;
 };
@@ -44,5 +45,13 @@ using RemapAreaFn = void(const AreaMap& map, ImageView<const std::uint8_t> src,
                          ImageView<std::uint8_t> dst);
 
 RemapAreaFn remap_area_ref;
+RemapAreaFn remap_area_sse41;
+RemapAreaFn remap_area_avx2;
+RemapAreaFn remap_area_neon;
+
+// One output pixel of the reference: what variants fall back to where a vector would read past the
+// end of a row.
+[[nodiscard]] std::uint8_t remap_area_pixel(const AreaMap& map, const AreaMapEntry& entry,
+                                            const std::uint8_t* src, std::ptrdiff_t stride);
 
 }  // namespace darkling

@@ -17,5 +17,8 @@ namespace darkling {
 using SaliencyFn = void(ImageView<const std::uint8_t> planes, ImageView<std::uint16_t> dst);
 
 SaliencyFn saliency_ref;
+SaliencyFn saliency_sse41;
+SaliencyFn saliency_avx2;
+SaliencyFn saliency_neon;
 
 }  // namespace darkling

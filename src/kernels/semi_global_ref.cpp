@@ -1,35 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kernels/semi_global.h"
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
 
-#include "kernels/semi_global.h"
-
 namespace darkling {
-
-void hamming_row_ref(std::span<const std::uint8_t> left, std::span<const std::uint8_t> right,
-                     int disparities, std::span<std::uint8_t> cost) {
-  std::uint8_t* out = cost.data();
-  for (int x = 0; x < static_cast<int>(left.size()); ++x, out += disparities) {
-    const int reach = std::min(disparities, x + 1);
-    for (int d = 0; d < reach; ++d) {
-      out[d] = static_cast<std::uint8_t>(
-          std::popcount(static_cast<std::uint8_t>(left[x] ^ right[x - d])));
-    }
-    std::fill(out + reach, out + disparities, std::uint8_t{8});
-  }
-}
 
 namespace {
 
+constexpr int D = kDisparities;
+
 // One step along one path: from the costs `before` (guarded by 255) with minimum `least` to `now`,
 // whose minimum is returned; adds to `sum`. Hirschmüller 2008, eq. (13).
-std::uint8_t step_path(std::span<const std::uint8_t> cost, SemiGlobalPenalties penalties,
+std::uint8_t step_path(const std::uint8_t* cost, SemiGlobalPenalties penalties,
                        const std::uint8_t* before, std::uint8_t least, std::uint8_t* now,
                        std::uint16_t* sum) {
   const int jump = least + penalties.large_step;
   std::uint8_t minimum = 255;
-  for (int d = 0; d < static_cast<int>(cost.size()); ++d) {
+  for (int d = 0; d < D; ++d) {
     const int stay = before[d];
     const int step = std::min(before[d - 1], before[d + 1]) + penalties.small_step;
     const auto path =
@@ -41,57 +30,107 @@ std::uint8_t step_path(std::span<const std::uint8_t> cost, SemiGlobalPenalties p
   return minimum;
 }
 
+// The path along the row: two pixels' costs, in turns.
+class PathAlong {
+ public:
+  PathAlong() { std::memset(costs_, 255, sizeof(costs_)); }
+  void start() {
+    std::memset(costs_[now_] + kPathGuard, 0, D);
+    least_ = 0;
+  }
+  void step(const std::uint8_t* cost, SemiGlobalPenalties penalties, std::uint16_t* sum) {
+    const std::uint8_t* before = costs_[now_] + kPathGuard;
+    now_ = 1 - now_;
+    least_ = step_path(cost, penalties, before, least_, costs_[now_] + kPathGuard, sum);
+  }
+
+ private:
+  std::uint8_t costs_[2][kPathStride];
+  std::uint8_t least_ = 0;
+  int now_ = 0;
+};
+
+void sum_window(const std::uint8_t* const hamming[3], int width, std::uint8_t* cost) {
+  for (int x = 0; x < width; ++x) {
+    const int columns[3] = {std::max(x - 1, 0), x, std::min(x + 1, width - 1)};
+    for (int d = 0; d < D; ++d) {
+      int sum = 0;
+      for (const int column : columns) {
+        for (int j = 0; j < 3; ++j) sum += hamming[j][column * D + d];
+      }
+      cost[x * D + d] = static_cast<std::uint8_t>(sum);
+    }
+  }
+}
+
+void choose_winners(int width, const StereoRow& row) {
+  std::fill_n(row.right_winner, width + D, std::uint16_t{0xffff});
+  for (int x = 0; x < width; ++x) {
+    std::uint16_t best = 0xffff;
+    for (int d = 0; d < D; ++d) {
+      const auto key = static_cast<std::uint16_t>(row.sum[x * D + d] * D + d);
+      std::uint16_t& right = row.right_winner[width - 1 - x + d];
+      right = std::min(right, key);
+      if (d <= x) best = std::min(best, key);
+    }
+    row.left_winner[x] = best;
+  }
+}
+
 }  // namespace
 
+void hamming_row_ref(const std::uint8_t* left, const std::uint8_t* right_reversed, int width,
+                     std::uint8_t* cost) {
+  for (int x = 0; x < width; ++x) {
+    const std::uint8_t* right = right_reversed + width - 1 - x;
+    std::uint8_t* out = cost + x * D;
+    for (int d = 0; d < D; ++d) {
+      const auto differ = static_cast<std::uint8_t>(left[x] ^ right[d]);
+      out[d] = static_cast<std::uint8_t>(d > x ? 8 : std::popcount(differ));
+    }
+  }
+}
+
 void reset_path_rows(PathRows& rows) {
-  const int stride = rows.disparities + 2 * kPathGuard;
   for (int direction = 0; direction < 3; ++direction) {
     for (int parity = 0; parity < 2; ++parity) {
-      std::memset(rows.costs[direction][parity], 255,
-                  path_costs_bytes(rows.width, rows.disparities));
+      std::uint8_t* costs = rows.costs[direction][parity];
+      std::memset(costs, 255, path_costs_bytes(rows.width));
       std::memset(rows.minima[direction][parity], 0, path_minima_bytes(rows.width));
       for (int x = 0; x < rows.width + 2; ++x) {
-        std::memset(rows.costs[direction][parity] + x * stride + kPathGuard, 0, rows.disparities);
+        std::memset(costs + x * kPathStride + kPathGuard, 0, D);
       }
     }
   }
   rows.parity = 0;
 }
 
-void semi_global_row_ref(std::span<const std::uint8_t> cost, SemiGlobalPenalties penalties,
-                         PathRows& rows, std::span<std::uint16_t> sum) {
-  const int D = rows.disparities;
-  const int stride = D + 2 * kPathGuard;
-  const int before = rows.parity;
-  const int now = 1 - rows.parity;
-  std::memset(rows.along, 255, path_along_bytes(D));
-  std::uint8_t* along[2] = {rows.along + kPathGuard, rows.along + stride + kPathGuard};
-  std::fill(sum.begin(), sum.end(), std::uint16_t{0});
+void semi_global_row_ref(const std::uint8_t* const hamming[3], SemiGlobalPenalties penalties,
+                         PathRows& paths, const StereoRow& row) {
+  const int width = paths.width;
+  const int before = paths.parity;
+  const int now = 1 - paths.parity;
+  sum_window(hamming, width, row.cost);
+  std::fill_n(row.sum, width * D, std::uint16_t{0});
 
-  std::memset(along[0], 0, D);
-  std::uint8_t least_along = 0;
-  for (int x = 0; x < rows.width; ++x) {
-    const std::span<const std::uint8_t> c = cost.subspan(x * D, D);
-    std::uint16_t* s = sum.data() + x * D;
+  PathAlong along;
+  along.start();
+  for (int x = 0; x < width; ++x) {
     for (int direction = 0; direction < 3; ++direction) {
-      const int from = x + 1 + direction - 1;  // one guard pixel at the left end
+      const int from = x + direction;  // a guard pixel at the left end: x - 1, x, x + 1
       const int to = x + 1;
-      rows.minima[direction][now][to] =
-          step_path(c, penalties, rows.costs[direction][before] + from * stride + kPathGuard,
-                    rows.minima[direction][before][from],
-                    rows.costs[direction][now] + to * stride + kPathGuard, s);
+      paths.minima[direction][now][to] =
+          step_path(row.cost + x * D, penalties,
+                    paths.costs[direction][before] + from * kPathStride + kPathGuard,
+                    paths.minima[direction][before][from],
+                    paths.costs[direction][now] + to * kPathStride + kPathGuard, row.sum + x * D);
     }
-    least_along = step_path(c, penalties, along[x & 1], least_along, along[1 - (x & 1)], s);
+    along.step(row.cost + x * D, penalties, row.sum + x * D);
   }
-
-  std::memset(along[0], 0, D);
-  least_along = 0;
-  int side = 0;
-  for (int x = rows.width - 1; x >= 0; --x, side = 1 - side) {
-    least_along = step_path(cost.subspan(x * D, D), penalties, along[side], least_along,
-                            along[1 - side], sum.data() + x * D);
-  }
-  rows.parity = now;
+  along.start();
+  for (int x = width - 1; x >= 0; --x) along.step(row.cost + x * D, penalties, row.sum + x * D);
+  choose_winners(width, row);
+  paths.parity = now;
 }
 
 }  // namespace darkling

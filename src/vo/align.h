@@ -33,11 +33,8 @@ struct Alignment {
   Matrix6 information = Matrix6::Zero();
 };
 
-// Scratch of one alignment: a residual a point.
-struct AlignmentScratch {
-  std::span<PointResidual> residuals;
-};
-[[nodiscard]] AlignmentScratch allocate_alignment_scratch(int points_per_level, Arena& arena);
+// Scratch of one alignment.
+[[nodiscard]] PointResiduals allocate_residuals(int points_per_level, Arena& arena);
 
 // Aligns a keyframe's template to the current frame from coarse to fine: Gauss-Newton with the
 // inverse compositional update in disparity space, one robust weight a point.
@@ -49,6 +46,6 @@ struct AlignmentScratch {
 // 2014; Baker, Matthews, "Lucas-Kanade 20 years on", 2004, for the inverse composition.
 [[nodiscard]] Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyframe,
                                     const FramePyramid& frame, std::span<const Se3> guesses,
-                                    const AlignmentScratch& scratch);
+                                    const PointResiduals& scratch);
 
 }  // namespace darkling

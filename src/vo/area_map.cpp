@@ -9,18 +9,25 @@ namespace darkling {
 namespace {
 
 // Fills `weights` (one phase) with the overlap of the box [phase, phase + box] and each source
-// pixel [i, i + 1], in 1/256, summing to 256: what rounding leaves goes to the largest.
-void fill_weights(double phase_px, double box_px, int taps, std::span<std::uint16_t> weights) {
+// pixel [i, i + 1], in 1/256, summing to 256: what rounding leaves goes to the largest, but never
+// more than a byte holds.
+void fill_weights(double phase_px, double box_px, int taps, std::span<std::uint8_t> weights) {
+  int shares[kMaxAreaTaps] = {};
   int left_over = 256;
   int largest = 0;
   for (int i = 0; i < taps; ++i) {
     const double overlap = std::min(i + 1.0, phase_px + box_px) - std::max<double>(i, phase_px);
     const double share = std::max(overlap, 0.0) / box_px;
-    weights[i] = static_cast<std::uint16_t>(std::lround(256.0 * share));
-    left_over -= weights[i];
-    if (weights[i] > weights[largest]) largest = i;
+    shares[i] = static_cast<int>(std::lround(256.0 * share));
+    left_over -= shares[i];
+    if (shares[i] > shares[largest]) largest = i;
   }
-  weights[largest] = static_cast<std::uint16_t>(weights[largest] + left_over);
+  shares[largest] += left_over;
+  if (shares[largest] > 255) {
+    shares[largest] = 255;
+    ++shares[largest + 1 < taps ? largest + 1 : largest - 1];
+  }
+  for (int i = 0; i < taps; ++i) weights[i] = static_cast<std::uint8_t>(shares[i]);
 }
 
 // Where a box of `box_px` about the pixel coordinate `centre` starts on an axis of `size` pixels:
@@ -70,13 +77,13 @@ Result<AreaMap> build_area_map(const Camera& camera, const RectifiedRig& rectifi
                        std::to_string(camera.width) +
                        " px wide image too much: at most 1 : " + std::to_string(kMaxAreaTaps - 1));
   }
-  const std::span<std::uint16_t> weights =
-      arena.allocate<std::uint16_t>(std::size_t{kAreaPhases} * kMaxAreaTaps, "area weights");
+  const std::span<std::uint8_t> weights =
+      arena.allocate<std::uint8_t>(std::size_t{kAreaPhases} * kMaxAreaTaps, "area weights");
   for (int phase = 0; phase < kAreaPhases; ++phase) {
     fill_weights(static_cast<double>(phase) / kAreaPhasesPerPixel, map.box_px, map.taps,
                  weights.subspan(std::size_t(phase) * kMaxAreaTaps, kMaxAreaTaps));
   }
-  map.weights = weights;
+  map.weights = weights.data();
 
   const ImageView<AreaMapEntry> entries =
       arena.allocate_image<AreaMapEntry>(rectified.width, rectified.height, "area map");

@@ -14,10 +14,6 @@ namespace {
 // The coarsest image still needs a few rows for its points to lie in.
 constexpr int kMinLevelHeight = 10;
 
-ImageView<std::uint8_t> crop(ImageView<std::uint8_t> image, const ImageView<std::uint8_t>& like) {
-  return {image.data, like.width, like.height, image.stride};
-}
-
 }  // namespace
 
 int pyramid_level_count(int width_px, int height_px) {
@@ -27,17 +23,22 @@ int pyramid_level_count(int width_px, int height_px) {
   return std::min(count, kMaxLevels);
 }
 
-FramePyramid allocate_pyramid(const RectifiedRig& rig, int level_count, Arena& arena) {
+FramePyramid allocate_pyramid(const RectifiedRig& rig, const PyramidLayout& layout, Arena& arena) {
   FramePyramid pyramid;
   double focal_px = rig.focal_px;
   double cx = rig.cx;
   double cy = rig.cy;
-  for (int l = 0; l < level_count; ++l) {
+  for (int l = 0; l < layout.level_count; ++l) {
     const int width = rig.width >> l;
     const int height = rig.height >> l;
     PyramidLevel level;
     level.grey = arena.allocate_image<std::uint8_t>(width, height, "pyramid grey");
-    level.planes = arena.allocate_image<std::uint8_t>(width * kPlaneCount, height, "bit-planes");
+    if (l < layout.planes_level_count) {
+      level.planes = arena.allocate_image<std::uint8_t>(width * kPlaneCount, height, "bit-planes");
+    }
+    if (l == 0 || l == layout.stereo_level) {
+      level.codes = arena.allocate_image<std::uint8_t>(width, height, "census codes");
+    }
     level.focal_px = focal_px;
     level.cx = cx;
     level.cy = cy;
@@ -49,13 +50,8 @@ FramePyramid allocate_pyramid(const RectifiedRig& rig, int level_count, Arena& a
   return pyramid;
 }
 
-PlaneScratch allocate_plane_scratch(const RectifiedRig& rig, Arena& arena) {
-  PlaneScratch scratch;
-  scratch.blurred = arena.allocate_image<std::uint8_t>(rig.width, rig.height, "blurred grey");
-  scratch.codes = arena.allocate_image<std::uint8_t>(rig.width, rig.height, "census codes");
-  const int row_pixels = rig.width + 2 * SmoothingTaps::kMaxRadius;
-  scratch.row = arena.allocate<std::uint8_t>(std::size_t{kPlaneCount} * row_pixels, "plane row");
-  return scratch;
+std::span<std::uint8_t> allocate_plane_scratch(const RectifiedRig& rig, Arena& arena) {
+  return arena.allocate<std::uint8_t>(bit_planes_scratch_bytes(rig.width), "plane rows");
 }
 
 void build_pyramid(const KernelTable& kernels, FramePyramid& pyramid) {
@@ -64,17 +60,10 @@ void build_pyramid(const KernelTable& kernels, FramePyramid& pyramid) {
   }
 }
 
-void compute_planes(const KernelTable& kernels, const SmoothingTaps& taps,
-                    const PlaneScratch& scratch, PyramidLevel& level) {
-  const ImageView<std::uint8_t> blurred = crop(scratch.blurred, level.grey);
-  const ImageView<std::uint8_t> codes = codes_of(scratch, level);
-  kernels.blur3(level.grey, blurred);
-  kernels.census(blurred, codes);
-  kernels.bit_planes(codes, taps, scratch.row.data(), level.planes);
-}
-
-ImageView<std::uint8_t> codes_of(const PlaneScratch& scratch, const PyramidLevel& level) {
-  return crop(scratch.codes, level.grey);
+void compute_planes(const KernelTable& kernels, std::span<std::uint8_t> scratch,
+                    PyramidLevel& level) {
+  if (level.planes.is_empty() && level.codes.is_empty()) return;
+  kernels.bit_planes(level.grey, level.codes, scratch, level.planes);
 }
 
 }  // namespace darkling

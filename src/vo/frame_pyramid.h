@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "base/arena.h"
 #include "base/fixed_vector.h"
 #include "geometry/stereo_rig.h"
@@ -12,17 +14,11 @@ namespace darkling {
 // One reduction of one eye's image. Level 0 is the thumbnail; each further one halves it.
 struct PyramidLevel {
   ImageView<std::uint8_t> grey;
-  ImageView<std::uint8_t> planes;  // interleaved bit-planes, 8 bytes a pixel
+  ImageView<std::uint8_t> planes;  // interleaved bit-planes, 8 bytes a pixel; or empty
+  ImageView<std::uint8_t> codes;   // census codes, where stereo needs them; else empty
   double focal_px = 0.0;
   double cx = 0.0;  // px; halving a coordinate maps c to (c + 0.5) / 2 - 0.5
   double cy = 0.0;
-};
-
-// Scratch that every level and both eyes share, sized for level 0.
-struct PlaneScratch {
-  ImageView<std::uint8_t> blurred;
-  ImageView<std::uint8_t> codes;
-  std::span<std::uint8_t> row;
 };
 
 using FramePyramid = FixedVector<PyramidLevel, kMaxLevels>;
@@ -30,20 +26,22 @@ using FramePyramid = FixedVector<PyramidLevel, kMaxLevels>;
 // How many levels a thumbnail of this width gets: see kCoarsestWidth.
 [[nodiscard]] int pyramid_level_count(int width_px, int height_px);
 
-// @param level_count  1 for the right eye, which is only matched, never tracked.
-[[nodiscard]] FramePyramid allocate_pyramid(const RectifiedRig& rig, int level_count, Arena& arena);
-[[nodiscard]] PlaneScratch allocate_plane_scratch(const RectifiedRig& rig, Arena& arena);
+// What the levels of a pyramid are for.
+struct PyramidLayout {
+  int level_count = 0;
+  int planes_level_count = 0;  // levels 0 … planes_level_count - 1 have planes
+  int stereo_level = 0;        // this level and level 0 have codes
+};
+[[nodiscard]] FramePyramid allocate_pyramid(const RectifiedRig& rig, const PyramidLayout& layout,
+                                            Arena& arena);
+// Scratch that every level and both eyes share, sized for level 0.
+[[nodiscard]] std::span<std::uint8_t> allocate_plane_scratch(const RectifiedRig& rig, Arena& arena);
 
 // Fills the levels above 0 from level 0's grey image.
 void build_pyramid(const KernelTable& kernels, FramePyramid& pyramid);
 
-// Fills the bit-planes of one level: blur, census, smoothed planes. `scratch.codes` keeps the
-// level's census codes until the next call.
-void compute_planes(const KernelTable& kernels, const SmoothingTaps& taps,
-                    const PlaneScratch& scratch, PyramidLevel& level);
-
-// The census codes of compute_planes(), as a view of the level's size.
-[[nodiscard]] ImageView<std::uint8_t> codes_of(const PlaneScratch& scratch,
-                                               const PyramidLevel& level);
+// Fills the bit-planes and the census codes of one level, as far as it has them.
+void compute_planes(const KernelTable& kernels, std::span<std::uint8_t> scratch,
+                    PyramidLevel& level);
 
 }  // namespace darkling

@@ -13,19 +13,15 @@ namespace darkling {
 
 // The points of a keyframe at one pyramid level.
 struct TemplateLevel {
-  std::span<TemplatePoint> storage;
-  int count = 0;
+  TemplatePoints points;
+  int capacity = 0;
   float mean_inverse_depth_focal = 0.0f;  // f / z in px/m: px of image motion a metre sideways
-
-  [[nodiscard]] std::span<const TemplatePoint> points() const {
-    return {storage.data(), static_cast<std::size_t>(count)};
-  }
 };
 
 // What later frames are aligned to.
 struct KeyframeTemplate {
   FixedVector<TemplateLevel, kMaxLevels> levels;
-  bool is_empty() const { return levels.size() == 0 || levels[0].count == 0; }
+  bool is_empty() const { return levels.size() == 0 || levels[0].points.count == 0; }
 };
 
 // Memory of select_points().
@@ -47,12 +43,13 @@ struct PointSelector {
 
 // The pixels of one level that tell most about motion, spread over the image: the most salient one
 // with a known disparity of each cell of a grid with about as many cells as points are wanted.
-// @param disparity  of level 0, in its pixels; kNoDisparity where unknown.
-// @param level      which level `planes` is; its candidates' disparities are in its pixels.
+// @param disparity        of level `disparity_level`, in its pixels; kNoDisparity where unknown.
+// @param level            which level `planes` is; its candidates' disparities are in its pixels.
 // @return the candidates, at most as many as `selector` was allocated for.
 std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
                                                   const PyramidLevel& planes, int level,
                                                   ImageView<const float> disparity,
+                                                  int disparity_level,
                                                   const PointSelector& selector);
 
 // Turns candidates into template points: reference values, gradients and their Gram matrix.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "vo/limits.h"
 
@@ -11,52 +10,10 @@ namespace darkling {
 
 namespace {
 
-constexpr int kWindowRadius = 1;
-constexpr int kWindow = 2 * kWindowRadius + 1;
+constexpr int D = kDisparities;
+constexpr int kWindow = 3;
 // In bits of the window's Hamming distance (8 a pixel, 72 in all).
 constexpr SemiGlobalPenalties kPenalties = {.small_step = 8, .large_step = 32};
-
-// Sums the Hamming rows about row y over the window, beyond the border the nearest row and column.
-void sum_window(const StereoMatcher& m, int y, int height) {
-  const int D = m.disparities;
-  const int width = m.paths.width;
-  const std::size_t row_size = std::size_t(width) * D;
-  std::fill(m.column_sums.begin(), m.column_sums.end(), std::uint16_t{0});
-  for (int j = -kWindowRadius; j <= kWindowRadius; ++j) {
-    const int row = std::clamp(y + j, 0, height - 1) % kWindow;
-    const std::uint8_t* hamming = m.hamming_rows.data() + row * row_size;
-    for (std::size_t i = 0; i < row_size; ++i) {
-      m.column_sums[i] = static_cast<std::uint16_t>(m.column_sums[i] + hamming[i]);
-    }
-  }
-  for (int x = 0; x < width; ++x) {
-    std::uint8_t* out = m.cost.data() + x * D;
-    const std::uint16_t* columns[kWindow];
-    for (int i = 0; i < kWindow; ++i) {
-      columns[i] = m.column_sums.data() + std::clamp(x + i - kWindowRadius, 0, width - 1) * D;
-    }
-    for (int d = 0; d < D; ++d) {
-      unsigned sum = 0;
-      for (const std::uint16_t* column : columns) sum += column[d];
-      out[d] = static_cast<std::uint8_t>(sum);
-    }
-  }
-}
-
-// The right eye's winners of one row: for each right pixel the disparity of the lowest sum.
-void find_right_winners(const StereoMatcher& m) {
-  const int D = m.disparities;
-  std::fill(m.right_best.begin(), m.right_best.end(), std::numeric_limits<std::uint16_t>::max());
-  for (int x = 0; x < m.paths.width; ++x) {
-    const std::uint16_t* sum = m.sum.data() + x * D;
-    for (int d = 0; d < std::min(D, x + 1); ++d) {
-      if (sum[d] < m.right_best[x - d]) {
-        m.right_best[x - d] = sum[d];
-        m.right_disparity[x - d] = static_cast<std::uint8_t>(d);
-      }
-    }
-  }
-}
 
 // Offset of the minimum from the middle of three costs, in ±0.5: two lines of equal and opposite
 // slope through them. Less biased than a parabola for costs that grow linearly with distance.
@@ -70,21 +27,19 @@ struct RowOutcome {
   std::int64_t cost = 0;  // of the winners, where every disparity lies inside the other image
 };
 
-// Writes one row of disparities.
-RowOutcome choose_winners(const StereoMatcher& m, int y) {
-  const int D = m.disparities;
-  float* out = m.disparity.row(y);
+// Writes one row of disparities: those on which both eyes agree.
+RowOutcome check_winners(const StereoRow& row, int width, float* out) {
   RowOutcome outcome;
-  for (int x = 0; x < m.paths.width; ++x) {
+  for (int x = 0; x < width; ++x) {
     out[x] = kNoDisparity;
-    const std::uint16_t* sum = m.sum.data() + x * D;
-    const int reach = std::min(D, x + 1);
-    const int d = static_cast<int>(std::min_element(sum, sum + reach) - sum);
-    if (reach == D) outcome.cost += sum[d];
+    const int d = row.left_winner[x] % D;
+    if (x >= D - 1) outcome.cost += row.left_winner[x] / D;
     if (d == D - 1) continue;  // the minimum may lie beyond what was searched
-    if (std::abs(m.right_disparity[x - d] - d) > 1) continue;
+    const int d_right = row.right_winner[width - 1 - (x - d)] % D;
+    if (std::abs(d_right - d) > 1) continue;
+    const std::uint16_t* sum = row.sum + x * D + d;
     float offset = 0.0f;
-    if (d > 0 && d + 1 < reach) offset = equiangular_offset(sum[d - 1], sum[d], sum[d + 1]);
+    if (d > 0 && d < x) offset = equiangular_offset(sum[-1], sum[0], sum[1]);
     out[x] = static_cast<float>(d) + offset;
     ++outcome.known;
   }
@@ -93,34 +48,30 @@ RowOutcome choose_winners(const StereoMatcher& m, int y) {
 
 }  // namespace
 
-int disparity_count(int width_px) {
-  const int wanted = (width_px / 6 + 15) / 16 * 16;
-  return std::clamp(wanted, 16, kMaxDisparities);
+int stereo_level(int width_px, int level_count) {
+  int level = 0;
+  while ((width_px >> level) > kMaxStereoWidth && level + 1 < level_count) ++level;
+  return level;
 }
 
 StereoMatcher allocate_stereo_matcher(int width_px, int height_px, Arena& arena) {
   StereoMatcher m;
-  m.disparities = disparity_count(width_px);
-  const std::size_t row_size = std::size_t(width_px) * m.disparities;
+  const std::size_t row_size = std::size_t(width_px) * D;
   m.paths.width = width_px;
-  m.paths.disparities = m.disparities;
   for (int direction = 0; direction < 3; ++direction) {
     for (int parity = 0; parity < 2; ++parity) {
       m.paths.costs[direction][parity] =
-          arena.allocate<std::uint8_t>(path_costs_bytes(width_px, m.disparities), "stereo paths")
-              .data();
+          arena.allocate<std::uint8_t>(path_costs_bytes(width_px), "stereo paths").data();
       m.paths.minima[direction][parity] =
           arena.allocate<std::uint8_t>(path_minima_bytes(width_px), "stereo path minima").data();
     }
   }
-  m.paths.along =
-      arena.allocate<std::uint8_t>(path_along_bytes(m.disparities), "stereo paths along").data();
-  m.hamming_rows = arena.allocate<std::uint8_t>(kWindow * row_size, "stereo Hamming rows");
-  m.column_sums = arena.allocate<std::uint16_t>(row_size, "stereo column sums");
-  m.cost = arena.allocate<std::uint8_t>(row_size, "stereo costs");
-  m.sum = arena.allocate<std::uint16_t>(row_size, "stereo path sums");
-  m.right_best = arena.allocate<std::uint16_t>(width_px, "stereo right best");
-  m.right_disparity = arena.allocate<std::uint8_t>(width_px, "stereo right disparity");
+  m.hamming_rows = arena.allocate<std::uint8_t>(kWindow * row_size, "stereo Hamming rows").data();
+  m.right_reversed = arena.allocate<std::uint8_t>(width_px + D, "stereo right codes").data();
+  m.row.cost = arena.allocate<std::uint8_t>(row_size, "stereo costs").data();
+  m.row.sum = arena.allocate<std::uint16_t>(row_size, "stereo path sums").data();
+  m.row.left_winner = arena.allocate<std::uint16_t>(width_px, "stereo left winners").data();
+  m.row.right_winner = arena.allocate<std::uint16_t>(width_px + D, "stereo right winners").data();
   m.disparity = arena.allocate_image<float>(width_px, height_px, "disparity");
   return m;
 }
@@ -130,25 +81,25 @@ double match_stereo(const KernelTable& kernels, ImageView<const std::uint8_t> le
   const int width = left_codes.width;
   const int height = left_codes.height;
   CHECK(m.disparity.has_size(width, height), "the matcher was allocated for another size");
-  const std::size_t row_size = std::size_t(width) * m.disparities;
+  const auto hamming_row = [&](int y) { return m.hamming_rows + (y % kWindow) * width * D; };
+  const auto compare_row = [&](int y) {
+    std::reverse_copy(right_codes.row(y), right_codes.row(y) + width, m.right_reversed);
+    kernels.hamming_row(left_codes.row(y), m.right_reversed, width, hamming_row(y));
+  };
   reset_path_rows(m.paths);
   int known = 0;
   std::int64_t cost = 0;
-  int next_row = 0;  // of Hamming distances
+  compare_row(0);
   for (int y = 0; y < height; ++y) {
-    for (; next_row <= std::min(y + kWindowRadius, height - 1); ++next_row) {
-      kernels.hamming_row({left_codes.row(next_row), std::size_t(width)},
-                          {right_codes.row(next_row), std::size_t(width)}, m.disparities,
-                          m.hamming_rows.subspan((next_row % kWindow) * row_size, row_size));
-    }
-    sum_window(m, y, height);
-    kernels.semi_global_row(m.cost, kPenalties, m.paths, m.sum);
-    find_right_winners(m);
-    const RowOutcome row = choose_winners(m, y);
-    known += row.known;
-    cost += row.cost;
+    if (y + 1 < height) compare_row(y + 1);
+    const std::uint8_t* const rows[kWindow] = {hamming_row(std::max(y - 1, 0)), hamming_row(y),
+                                               hamming_row(std::min(y + 1, height - 1))};
+    kernels.semi_global_row(rows, kPenalties, m.paths, m.row);
+    const RowOutcome outcome = check_winners(m.row, width, m.disparity.row(y));
+    known += outcome.known;
+    cost += outcome.cost;
   }
-  const double compared = static_cast<double>(std::max(width - m.disparities + 1, 1)) * height;
+  const double compared = static_cast<double>(std::max(width - D + 1, 1)) * height;
   m.mean_cost = static_cast<double>(cost) / compared;
   return static_cast<double>(known) / (static_cast<double>(width) * height);
 }

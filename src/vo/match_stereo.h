@@ -14,22 +14,20 @@ inline constexpr float kNoDisparity = -1.0f;
 
 // Memory of match_stereo() for one image size.
 struct StereoMatcher {
-  int disparities = 0;  // 0 … disparities - 1 px are searched
   PathRows paths;
-  std::span<std::uint8_t> hamming_rows;     // a ring of one row a row of the window
-  std::span<std::uint16_t> column_sums;     // one row: summed down the window
-  std::span<std::uint8_t> cost;             // one row: summed over the window
-  std::span<std::uint16_t> sum;             // one row: of the five paths
-  std::span<std::uint16_t> right_best;      // one row: the right eye's lowest sum …
-  std::span<std::uint8_t> right_disparity;  // … and its disparity
-  ImageView<float> disparity;               // the result; px, kNoDisparity where unknown
+  std::uint8_t* hamming_rows = nullptr;    // a ring of three rows
+  std::uint8_t* right_reversed = nullptr;  // one row of codes
+  StereoRow row;
+  ImageView<float> disparity;  // the result; px, kNoDisparity where unknown
   // Of the winning path sums: how well the eyes agree.
   double mean_cost = 0.0;
 };
 
-// The disparities searched for a thumbnail of this width: a sixth of it, in steps of 16. At 310 px
-// of a car's cameras that reaches to 1.7 m, at 376 px of an 11 cm baseline to 0.4 m.
-[[nodiscard]] int disparity_count(int width_px);
+// The pyramid level that is matched densely: the finest one at most kMaxStereoWidth wide. There 32
+// disparities reach a sixth of the width and more, to 1.7 m with a car's cameras and 0.4 m with an
+// 11 cm baseline, and the cost does not grow with the thumbnail. What the finer levels need is found
+// from there for the points that are kept (refine_disparity.h).
+[[nodiscard]] int stereo_level(int width_px, int level_count);
 
 [[nodiscard]] StereoMatcher allocate_stereo_matcher(int width_px, int height_px, Arena& arena);
 

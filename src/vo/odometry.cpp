@@ -46,11 +46,13 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
   }
   {
     StageTimer timer(read_clock, estimate, Stage::kPlanes);
-    compute_planes(kernels, taps, scratch, right[0]);
+    build_pyramid(kernels, right);
+    for (PyramidLevel& level : right) compute_planes(kernels, plane_scratch, level);
   }
   {
     StageTimer timer(read_clock, estimate, Stage::kStereo);
-    const ImageView<std::uint8_t> right_codes = codes_of(scratch, right[0]);
+    const ImageView<std::uint8_t>& left_codes = left[dense_level].codes;
+    const ImageView<std::uint8_t>& right_codes = right[dense_level].codes;
     if (!keyframe.is_empty()) {
       (void)match_stereo(kernels, left_codes, right_codes, matcher);
     } else if (are_eyes_swapped(kernels, left_codes, right_codes, matcher)) {
@@ -61,9 +63,10 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
   StageTimer timer(read_clock, estimate, Stage::kSelect);
   for (int l = 0; l < static_cast<int>(left.size()); ++l) {
     std::span<PointSelector::Candidate> chosen =
-        select_points(kernels, left[l], l, matcher.disparity, selector);
+        select_points(kernels, left[l], l, matcher.disparity, dense_level, selector);
     if (l == 0) {
-      refine_disparities(left[0], right[0], chosen);
+      search_disparities(kernels, left[0], right[0], dense_level, chosen);
+      refine_disparities(kernels, left[0], right[0], chosen);
       chosen = drop_unknown(chosen);
       if (static_cast<int>(chosen.size()) < kMinKeyframePoints) return false;
     }
@@ -85,13 +88,7 @@ void Odometry::State::prepare_left(const StereoFrame& frame, Estimate& estimate)
     build_pyramid(kernels, left);
   }
   StageTimer timer(read_clock, estimate, Stage::kPlanes);
-  for (int l = static_cast<int>(left.size()) - 1; l >= 0; --l) {
-    compute_planes(kernels, taps, scratch, left[l]);
-  }
-  const ImageView<std::uint8_t> codes = codes_of(scratch, left[0]);
-  for (int y = 0; y < codes.height; ++y) {
-    std::copy_n(codes.row(y), codes.width, left_codes.row(y));
-  }
+  for (PyramidLevel& level : left) compute_planes(kernels, plane_scratch, level);
 }
 
 // T_world_left of frame `sequence` if the last measured motion goes on.
@@ -146,7 +143,7 @@ Estimate Odometry::track(const StereoFrame& frame) {
   Alignment alignment;
   {
     StageTimer timer(s.read_clock, estimate, Stage::kTrack);
-    alignment = align_frame(s.kernels, s.keyframe, s.left, guesses, s.alignment_scratch);
+    alignment = align_frame(s.kernels, s.keyframe, s.left, guesses, s.residuals);
   }
   const Judgement judgement = judge_alignment(alignment, s.keyframe.levels[0], s.rig.focal_px);
   estimate.status = judgement.status;
@@ -171,7 +168,7 @@ void Odometry::State::start(const StereoFrame& frame, Estimate& estimate) {
     estimate.status = TrackStatus::kValid;
     estimate.quality = 100;
     estimate.visible_fraction = 1.0;
-    estimate.point_count = keyframe.levels[0].count;
+    estimate.point_count = keyframe.levels[0].points.count;
   } else {
     estimate.status = TrackStatus::kLost;
     if (estimate.reasons == kReasonNone) estimate.reasons = kReasonNoDepth;

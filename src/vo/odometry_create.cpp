@@ -31,7 +31,7 @@ Result<void> check_limits(const OdometryConfig& config, const RectifiedRig& rig)
 
 std::size_t arena_capacity(const RectifiedRig& rig) {
   const std::size_t pixels = std::size_t(rig.width + 64) * (rig.height + 2);
-  return pixels * 64 + std::size_t(rig.width + 64) * disparity_count(rig.width) * 24 + (2u << 20);
+  return pixels * 64 + std::size_t(rig.width + 64) * kDisparities * 24 + (4u << 20);
 }
 
 }  // namespace
@@ -63,13 +63,14 @@ Result<std::unique_ptr<Odometry>> Odometry::create(const OdometryConfig& config,
   s.left_map = *left_map;
   s.right_map = *right_map;
   const int levels = pyramid_level_count(s.rig.width, s.rig.height);
-  s.left = allocate_pyramid(s.rig, levels, s.arena);
-  s.right = allocate_pyramid(s.rig, 1, s.arena);
-  s.scratch = allocate_plane_scratch(s.rig, s.arena);
-  s.left_codes = s.arena.allocate_image<std::uint8_t>(s.rig.width, s.rig.height, "left codes");
-  s.matcher = allocate_stereo_matcher(s.rig.width, s.rig.height, s.arena);
+  s.dense_level = stereo_level(s.rig.width, levels);
+  s.left = allocate_pyramid(s.rig, {levels, levels, s.dense_level}, s.arena);
+  s.right = allocate_pyramid(s.rig, {s.dense_level + 1, 1, s.dense_level}, s.arena);
+  s.plane_scratch = allocate_plane_scratch(s.rig, s.arena);
+  s.matcher = allocate_stereo_matcher(s.rig.width >> s.dense_level, s.rig.height >> s.dense_level,
+                                      s.arena);
   s.selector = allocate_point_selector(s.rig, config.points_per_level, s.arena);
-  s.alignment_scratch = allocate_alignment_scratch(config.points_per_level, s.arena);
+  s.residuals = allocate_residuals(config.points_per_level, s.arena);
   s.keyframe = allocate_template(levels, config.points_per_level, s.arena);
   s.arena.seal();
   return std::unique_ptr<Odometry>(new Odometry(std::move(state)));

@@ -11,27 +11,23 @@
 
 namespace darkling {
 
-// Each bit-plane is smoothed so far that a motion of a pixel or two still lies on its slope.
-inline constexpr double kPlaneSigmaPx = 1.25;
-
 // What Odometry keeps between frames; all image and point memory is in the arena.
 struct Odometry::State {
   OdometryConfig config;
   RectifiedRig rig;
   const KernelTable kernels;
   ReadClock read_clock;
-  SmoothingTaps taps;
   Arena arena;
 
   AreaMap left_map;
   AreaMap right_map;
   FramePyramid left;
-  FramePyramid right;  // level 0 only
-  PlaneScratch scratch;
-  ImageView<std::uint8_t> left_codes;
+  FramePyramid right;      // levels 0 … dense_level; planes only on level 0
+  int dense_level = 0;     // the level that is matched densely
+  std::span<std::uint8_t> plane_scratch;
   StereoMatcher matcher;
   PointSelector selector;
-  AlignmentScratch alignment_scratch;
+  PointResiduals residuals;
   KeyframeTemplate keyframe;
 
   Se3 T_world_key;        // World here: the first rectified left camera
@@ -49,7 +45,6 @@ struct Odometry::State {
         rig(rig_),
         kernels(kernels_),
         read_clock(read_clock_),
-        taps(make_smoothing_taps(kPlaneSigmaPx)),
         arena(arena_bytes) {}
 
   void prepare_left(const StereoFrame& frame, Estimate& estimate);

@@ -14,11 +14,16 @@ constexpr int kBorder = 2;
 // Σ|∂φ| below which a pixel is flat: an edge of the planes is worth about 255 a plane it is in.
 constexpr std::uint16_t kMinSaliency = 64;
 
-// The disparity of a level's pixel, in its own pixels: the median of what level 0 knows in the
-// block that the pixel was reduced from.
+// The disparity of a pixel `level` levels above that of `disparity`, in its own pixels: the median
+// of what is known in the block that the pixel was reduced from. Below that level (`level` < 0) it
+// is that of the coarser pixel that it became part of.
 float block_disparity(ImageView<const float> disparity, int level, int x, int y) {
+  if (level <= 0) {
+    const int u = std::min(x >> -level, disparity.width - 1);
+    const int v = std::min(y >> -level, disparity.height - 1);
+    return disparity.at(u, v) * static_cast<float>(1 << -level);
+  }
   const int size = 1 << level;
-  if (level == 0) return disparity.at(x, y);
   constexpr int kMaxSamples = 64;  // of larger blocks an even subset
   const int step = std::max(1, size / 8);
   float known[kMaxSamples];
@@ -72,6 +77,7 @@ PointSelector allocate_point_selector(const RectifiedRig& rig, int points_per_le
 std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
                                                   const PyramidLevel& planes, int level,
                                                   ImageView<const float> disparity,
+                                                  int disparity_level,
                                                   const PointSelector& selector) {
   const int width = planes.grey.width;
   const int height = planes.grey.height;
@@ -91,7 +97,8 @@ std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
       const int x_begin = std::max(kBorder, column * width / columns);
       const int x_end = std::min(width - kBorder, (column + 1) * width / columns);
       const PointSelector::Candidate best =
-          best_in_cell({x_begin, x_end, y_begin, y_end}, saliency, disparity, level);
+          best_in_cell({x_begin, x_end, y_begin, y_end}, saliency, disparity,
+                       level - disparity_level);
       if (best.disparity_px >= 0.0f && count < selector.candidates.size()) {
         selector.candidates[count++] = best;
       }

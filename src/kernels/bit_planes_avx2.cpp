@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <immintrin.h>
+
+#include "kernels/bit_planes.h"
+#include "kernels/bit_planes_rows.h"
+
+namespace darkling {
+namespace {
+
+constexpr int kBytes = 32;  // a vector
+
+__m256i load(const void* from) {
+  return _mm256_loadu_si256(static_cast<const __m256i*>(from));
+}
+void store(void* to, __m256i value) {
+  _mm256_storeu_si256(static_cast<__m256i*>(to), value);
+}
+// Sixteen bytes as 16-bit numbers.
+__m256i widen(const std::uint8_t* from) {
+  return _mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(from)));
+}
+
+// Sixteen blurred pixels, as 16-bit numbers.
+__m256i blur_16(const BlurRow& row, int x) {
+  const auto column = [&row](int i) {
+    const __m256i twice = _mm256_slli_epi16(widen(row.here + i), 1);
+    return _mm256_add_epi16(_mm256_add_epi16(widen(row.above + i), widen(row.below + i)), twice);
+  };
+  const __m256i sides = _mm256_add_epi16(column(x - 1), column(x + 1));
+  const __m256i sum = _mm256_add_epi16(sides, _mm256_slli_epi16(column(x), 1));
+  return _mm256_srli_epi16(_mm256_add_epi16(sum, _mm256_set1_epi16(8)), 4);
+}
+
+void blur_32(const BlurRow& row, int x) {
+  const __m256i mixed = _mm256_packus_epi16(blur_16(row, x), blur_16(row, x + 16));
+  store(row.blurred + x, _mm256_permute4x64_epi64(mixed, 0b11'01'10'00));
+}
+
+void blur_row(const BlurRow& row) {
+  const int last = row.width - 1;
+  if (last - 1 < kBytes) {
+    blur_columns(row, 0, row.width);
+    return;
+  }
+  const BlurRow local = row;  // else each store might have moved the pointers
+  for (int x = 1; x + kBytes <= last; x += kBytes) blur_32(local, x);
+  blur_32(local, last - kBytes);  // overlaps the one before: no read goes past the row
+  blur_columns(row, 0, 1);
+  blur_columns(row, last, row.width);
+}
+
+// Grey levels with the top bit flipped, for a comparison that knows only signed bytes.
+__m256i load_signed(const std::uint8_t* from) {
+  return _mm256_xor_si256(load(from), _mm256_set1_epi8(-128));
+}
+
+// Moves the codes one bit down and puts the next neighbour's bit on top. A rounded average with a
+// mask of 0 or 255 does both, without rounding: seven moves leave the lowest bit clear.
+void census_32(const CensusRow& row, int x) {
+  const std::uint8_t* const neighbours[kPlaneCount] = {
+      row.above + x - 1, row.above + x,     row.above + x + 1, row.here + x - 1,
+      row.here + x + 1,  row.below + x - 1, row.below + x,     row.below + x + 1};
+  const __m256i centre = load_signed(row.here + x);
+  __m256i codes = _mm256_setzero_si256();
+  for (const std::uint8_t* neighbour : neighbours) {
+    codes = _mm256_avg_epu8(codes, _mm256_cmpgt_epi8(load_signed(neighbour), centre));
+  }
+  store(row.codes + x, codes);
+}
+
+void census_row(const CensusRow& row) {
+  const CensusRow local = row;
+  for (int x = 0; x < local.width; x += kBytes) census_32(local, x);
+}
+
+__m256i smooth(__m256i before, __m256i here, __m256i after) {
+  return _mm256_avg_epu8(_mm256_avg_epu8(before, after), here);
+}
+
+// Four pixels' codes as 32 bytes of 0 or 255.
+__m256i spread(const std::uint8_t* codes) {
+  const __m256i pixel = _mm256_setr_epi8(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2,
+                                         2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3);
+  const __m256i bit = _mm256_set1_epi64x(static_cast<long long>(0x8040'2010'0804'0201ULL));
+  std::int32_t four = 0;
+  __builtin_memcpy(&four, codes, sizeof(four));
+  const __m256i replicated = _mm256_shuffle_epi8(_mm256_set1_epi32(four), pixel);
+  return _mm256_cmpeq_epi8(_mm256_and_si256(replicated, bit), bit);
+}
+
+void smooth_down_row(const DownRow& row) {
+  const DownRow local = row;
+  for (int x = 0; x < local.width; x += 4) {
+    const int i = x * kPlaneCount;
+    __m256i m = spread(local.codes + x);
+    for (int pass = 0; pass < 3; ++pass) {
+      const __m256i out = smooth(load(local.older[pass] + i), load(local.newer[pass] + i), m);
+      store(local.older[pass] + i, m);
+      m = out;
+    }
+    store(local.out + i, m);
+  }
+}
+
+void smooth_along(const std::uint8_t* in, std::uint8_t* out, int i) {
+  store(out + i, smooth(load(in + i - kPlaneCount), load(in + i), load(in + i + kPlaneCount)));
+}
+
+void smooth_along_row(const AlongRow& row) {
+  const AlongRow local = row;
+  const int bytes = local.width * kPlaneCount;
+  for (int i = -2 * kPlaneCount; i < bytes + 2 * kPlaneCount; i += kBytes) {
+    smooth_along(local.in, local.spare, i);
+  }
+  if (bytes < kBytes) {
+    smooth_along_bytes(local.spare, local.in, -kPlaneCount, bytes + kPlaneCount);
+    smooth_along_bytes(local.in, local.out, 0, bytes);
+    return;
+  }
+  for (int i = -kPlaneCount; i < bytes + kPlaneCount; i += kBytes) {
+    smooth_along(local.spare, local.in, i);
+  }
+  for (int i = 0; i + kBytes <= bytes; i += kBytes) smooth_along(local.in, local.out, i);
+  smooth_along(local.in, local.out, bytes - kBytes);
+}
+
+}  // namespace
+
+void bit_planes_avx2(ImageView<const std::uint8_t> grey, ImageView<std::uint8_t> codes,
+                     std::span<std::uint8_t> scratch, ImageView<std::uint8_t> planes) {
+  bit_planes_by_rows(grey, codes, scratch, planes,
+                     {blur_row, census_row, smooth_down_row, smooth_along_row});
+}
+
+}  // namespace darkling
