@@ -14,6 +14,7 @@
 #include "kernels/saliency.h"
 #include "kernels/sample_residuals.h"
 #include "kernels/semi_global.h"
+#include "kernels/take_patch.h"
 
 namespace darkling {
 
@@ -25,6 +26,7 @@ struct KernelTable {
   HalveFn* halve = halve_ref;
   BitPlanesFn* bit_planes = bit_planes_ref;
   SaliencyFn* saliency = saliency_ref;
+  TakePatchFn* take_patch = take_patch_ref;
   SampleResidualsFn* sample_residuals = sample_residuals_ref;
   NormalEquationsFn* normal_equations = normal_equations_ref;
   HammingRowFn* hamming_row = hamming_row_ref;

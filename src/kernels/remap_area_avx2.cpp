@@ -24,14 +24,14 @@ struct Source {
   std::ptrdiff_t stride;
   const std::uint8_t* weights;
   int taps;
-  // Where the first four rows of a box begin. Rows beyond `taps` have no weight but may lie outside
-  // the image, so the last row stands in.
-  std::ptrdiff_t rows[4];
+  // Where the first eight rows of a box begin. Rows beyond `taps` have no weight but may lie
+  // outside the image, so the last row stands in.
+  std::ptrdiff_t rows[8];
 };
 
 Source make_source(const AreaMap& map, const ImageView<const std::uint8_t>& src) {
   Source source = {src.data, src.stride, map.weights, map.taps, {}};
-  for (int j = 0; j < 4; ++j) source.rows[j] = (j < map.taps ? j : map.taps - 1) * src.stride;
+  for (int j = 0; j < 8; ++j) source.rows[j] = (j < map.taps ? j : map.taps - 1) * src.stride;
   return source;
 }
 
@@ -62,8 +62,36 @@ __m256i weigh_4x4(const Source& s, const AreaMapEntry& a, const AreaMapEntry& b)
   return _mm256_madd_epi16(along, down);
 }
 
-// One output pixel with any number of taps, the sums of its box in four parts. Reads whole groups
-// of eight columns.
+__m128i load_8(const std::uint8_t* from) {
+  return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+}
+
+// Two rows of eight pixels, weighted along the row: four 16-bit sums of each.
+__m128i weigh_rows(const std::uint8_t* upper, const std::uint8_t* lower, __m128i weights_twice) {
+  return _mm_maddubs_epi16(weights_twice,
+                           to_signed(_mm_unpacklo_epi64(load_8(upper), load_8(lower))));
+}
+
+// The weights of rows j and j + 1, four times each, as 16-bit numbers.
+__m128i row_weights(const std::uint8_t* wy, int j) {
+  const __m128i four_each = _mm_setr_epi8(0, -1, 0, -1, 0, -1, 0, -1, 1, -1, 1, -1, 1, -1, 1, -1);
+  return _mm_shuffle_epi8(_mm_cvtsi32_si128(wy[j] | wy[j + 1] << 8), four_each);
+}
+
+// One output pixel with five to eight taps, the sums of its box in four parts. Reads eight columns.
+__m128i weigh_8x8(const Source& s, const AreaMapEntry& e) {
+  const __m128i w = load_8(s.weights + e.phase_x * kMaxAreaTaps);
+  const __m128i along = _mm_unpacklo_epi64(w, w);
+  const std::uint8_t* wy = s.weights + e.phase_y * kMaxAreaTaps;
+  const std::uint8_t* p = s.pixels + e.y * s.stride + e.x;
+  const auto pair = [&](int j) {
+    return _mm_madd_epi16(weigh_rows(p + s.rows[j], p + s.rows[j + 1], along), row_weights(wy, j));
+  };
+  const __m128i sum = _mm_add_epi32(_mm_add_epi32(pair(0), pair(2)), pair(4));
+  return s.taps <= 6 ? sum : _mm_add_epi32(sum, pair(6));
+}
+
+// One output pixel with any number of taps. Reads whole groups of eight columns.
 __m128i weigh_wide(const Source& s, const AreaMapEntry& e) {
   const std::uint8_t* wx = s.weights + e.phase_x * kMaxAreaTaps;
   const std::uint8_t* wy = s.weights + e.phase_y * kMaxAreaTaps;
@@ -75,16 +103,10 @@ __m128i weigh_wide(const Source& s, const AreaMapEntry& e) {
     const std::uint8_t* lower = j + 1 < s.taps ? upper + s.stride : upper;
     __m128i along = _mm_setzero_si128();
     for (int i = 0; i < s.taps; i += 8) {
-      const __m128i first = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(upper + i));
-      const __m128i second = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(lower + i));
-      const __m128i w = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(wx + i));
-      along = _mm_add_epi16(along, _mm_maddubs_epi16(_mm_unpacklo_epi64(w, w),
-                                                     to_signed(_mm_unpacklo_epi64(first, second))));
+      const __m128i w = load_8(wx + i);
+      along = _mm_add_epi16(along, weigh_rows(upper + i, lower + i, _mm_unpacklo_epi64(w, w)));
     }
-    const __m128i four_each =
-        _mm_setr_epi8(0, -1, 0, -1, 0, -1, 0, -1, 1, -1, 1, -1, 1, -1, 1, -1);
-    const __m128i down = _mm_shuffle_epi8(_mm_cvtsi32_si128(wy[j] | wy[j + 1] << 8), four_each);
-    sum = _mm_add_epi32(sum, _mm_madd_epi16(along, down));
+    sum = _mm_add_epi32(sum, _mm_madd_epi16(along, row_weights(wy, j)));
   }
   return sum;
 }
@@ -100,13 +122,24 @@ void finish_8(const __m256i pairs[4], std::uint8_t* out) {
   _mm_storel_epi64(reinterpret_cast<__m128i*>(out), _mm_packus_epi16(words, words));
 }
 
-void remap_8(const Source& s, const AreaMapEntry* e, std::uint8_t* out) {
+// Eight pixels, each by `weigh`: one of the functions above.
+void remap_8(const Source& s, const AreaMapEntry* e, std::uint8_t* out,
+             __m128i (*weigh)(const Source&, const AreaMapEntry&)) {
   __m256i pairs[4];
-  for (int i = 0; i < 4; ++i) {
-    pairs[i] = s.taps <= 4 ? weigh_4x4(s, e[i], e[i + 4])
-                           : _mm256_set_m128i(weigh_wide(s, e[i + 4]), weigh_wide(s, e[i]));
-  }
+  for (int i = 0; i < 4; ++i) pairs[i] = _mm256_set_m128i(weigh(s, e[i + 4]), weigh(s, e[i]));
   finish_8(pairs, out);
+}
+
+void remap_8_narrow(const Source& s, const AreaMapEntry* e, std::uint8_t* out) {
+  __m256i pairs[4];
+  for (int i = 0; i < 4; ++i) pairs[i] = weigh_4x4(s, e[i], e[i + 4]);
+  finish_8(pairs, out);
+}
+
+bool are_inside(const AreaMapEntry* e, int last_x) {
+  bool is_inside = true;
+  for (int i = 0; i < kPixels; ++i) is_inside = is_inside && e[i].x <= last_x;
+  return is_inside;
 }
 
 }  // namespace
@@ -121,14 +154,17 @@ void remap_area_avx2(const AreaMap& map, ImageView<const std::uint8_t> src,
     std::uint8_t* out = dst.data + v * dst.stride;
     int u = 0;
     for (; u + kPixels <= dst.width; u += kPixels) {
-      bool is_inside = true;
-      for (int i = 0; i < kPixels; ++i) is_inside = is_inside && entries[u + i].x <= last_x;
-      if (is_inside) {
-        remap_8(source, entries + u, out + u);
-        continue;
-      }
-      for (int i = u; i < u + kPixels; ++i) {
-        out[i] = remap_area_pixel(map, entries[i], src.data, src.stride);
+      const AreaMapEntry* e = entries + u;
+      if (!are_inside(e, last_x)) {
+        for (int i = 0; i < kPixels; ++i) {
+          out[u + i] = remap_area_pixel(map, e[i], src.data, src.stride);
+        }
+      } else if (map.taps <= 4) {
+        remap_8_narrow(source, e, out + u);
+      } else if (map.taps <= 8) {
+        remap_8(source, e, out + u, weigh_8x8);
+      } else {
+        remap_8(source, e, out + u, weigh_wide);
       }
     }
     for (; u < dst.width; ++u) {

@@ -32,8 +32,8 @@ __m256i beyond(int x) {
 }
 
 __m256i count_bits(__m256i bytes) {
-  const __m256i counts = _mm256_broadcastsi128_si256(
-      _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+  const __m256i counts =
+      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
   const __m256i nibble = _mm256_set1_epi8(15);
   const __m256i low = _mm256_and_si256(bytes, nibble);
   const __m256i high = _mm256_and_si256(_mm256_srli_epi16(bytes, 4), nibble);
@@ -80,14 +80,31 @@ struct PathAlong {
   }
 };
 
-// The costs of one pixel on one of the paths from above.
-__m256i step_from_above(__m256i cost, const Penalties& p, const std::uint8_t* before,
-                        std::uint8_t least, std::uint8_t* now, std::uint8_t* least_now) {
-  const __m256i path = step_path(cost, p, load(before - 1), load(before), load(before + 1),
-                                 _mm256_set1_epi8(static_cast<char>(least)));
-  store(now, path);
-  *least_now = least_byte(path);
-  return path;
+// One of the paths from above: its costs and minima in the row before, shifted so that index x is
+// where the path to pixel x comes from, and in this row.
+struct PathAbove {
+  const std::uint8_t* before;
+  const std::uint8_t* least_before;
+  std::uint8_t* now;
+  std::uint8_t* least_now;
+
+  __m256i step(int x, __m256i cost, const Penalties& p) const {
+    const std::uint8_t* from = before + x * kPathStride;
+    const __m256i least = _mm256_set1_epi8(static_cast<char>(least_before[x]));
+    const __m256i path = step_path(cost, p, load(from - 1), load(from), load(from + 1), least);
+    store(now + x * kPathStride, path);
+    least_now[x] = least_byte(path);
+    return path;
+  }
+};
+
+PathAbove path_above(const PathRows& paths, int direction) {
+  const int before = paths.parity;
+  const int now = 1 - before;
+  // A guard pixel at the left end: pixel x is at x + 1, and comes from x - 1, x or x + 1.
+  return {paths.costs[direction][before] + direction * kPathStride + kPathGuard,
+          paths.minima[direction][before] + direction,
+          paths.costs[direction][now] + kPathStride + kPathGuard, paths.minima[direction][now] + 1};
 }
 
 // Hamming distances of one column of pixels, summed over the three rows.
@@ -109,33 +126,29 @@ __m256i high_half(__m256i bytes) {
 void walk_right(const std::uint8_t* const hamming[3], const Penalties& p, const PathRows& paths,
                 const StereoRow& row) {
   const int width = paths.width;
-  const int before = paths.parity;
-  const int now = 1 - before;
+  const PathAbove from_left = path_above(paths, 0);
+  const PathAbove from_above = path_above(paths, 1);
+  const PathAbove from_right = path_above(paths, 2);
+  const std::uint8_t* const rows[3] = {hamming[0], hamming[1], hamming[2]};
+  std::uint8_t* const costs = row.cost;
+  std::uint16_t* const sums = row.sum;
   PathAlong along;
-  __m256i left = sum_column(hamming, 0);
+  __m256i left = sum_column(rows, 0);
   __m256i here = left;
   for (int x = 0; x < width; ++x) {
-    const __m256i right = sum_column(hamming, x + 1 < width ? x + 1 : x);
+    const __m256i right = sum_column(rows, x + 1 < width ? x + 1 : x);
     const __m256i cost = _mm256_add_epi8(_mm256_add_epi8(left, here), right);
     left = here;
     here = right;
-    store(row.cost + x * D, cost);
-    __m256i path[3];
-    for (int direction = 0; direction < 3; ++direction) {
-      const int from = x + direction;  // a guard pixel at the left end: x - 1, x, x + 1
-      path[direction] = step_from_above(
-          cost, p, paths.costs[direction][before] + from * kPathStride + kPathGuard,
-          paths.minima[direction][before][from],
-          paths.costs[direction][now] + (x + 1) * kPathStride + kPathGuard,
-          paths.minima[direction][now] + x + 1);
-    }
-    const __m256i last = along.step(cost, p);
-    const auto add = [&](__m256i (*half)(__m256i)) {
-      return _mm256_add_epi16(_mm256_add_epi16(half(path[0]), half(path[1])),
-                              _mm256_add_epi16(half(path[2]), half(last)));
-    };
-    store(row.sum + x * D, add(low_half));
-    store(row.sum + x * D + D / 2, add(high_half));
+    store(costs + x * D, cost);
+    const __m256i a = from_left.step(x, cost, p);
+    const __m256i b = from_above.step(x, cost, p);
+    const __m256i c = from_right.step(x, cost, p);
+    const __m256i d = along.step(cost, p);
+    store(sums + x * D, _mm256_add_epi16(_mm256_add_epi16(low_half(a), low_half(b)),
+                                         _mm256_add_epi16(low_half(c), low_half(d))));
+    store(sums + x * D + D / 2, _mm256_add_epi16(_mm256_add_epi16(high_half(a), high_half(b)),
+                                                 _mm256_add_epi16(high_half(c), high_half(d))));
   }
 }
 
@@ -146,32 +159,61 @@ std::uint16_t least_word(__m256i a, __m256i b) {
   return static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(eight)));
 }
 
-void keep_least(std::uint16_t* to, __m256i keys) {
-  store(to, _mm256_min_epu16(load(to), keys));
+// The winner keys of one pixel.
+struct Keys {
+  __m256i low;
+  __m256i high;
+};
+
+Keys make_keys(__m256i low_sum, __m256i high_sum) {
+  const __m256i low_d = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m256i high_d = _mm256_add_epi16(low_d, _mm256_set1_epi16(16));
+  return {_mm256_or_si256(_mm256_slli_epi16(low_sum, 5), low_d),
+          _mm256_or_si256(_mm256_slli_epi16(high_sum, 5), high_d)};
 }
+
+// The least key of those whose disparity lies inside the right image.
+std::uint16_t least_inside(const Keys& keys, int x) {
+  const __m256i outside = beyond(x);
+  const __m256i low = _mm256_cvtepi8_epi16(_mm256_castsi256_si128(outside));
+  const __m256i high = _mm256_cvtepi8_epi16(_mm256_extracti128_si256(outside, 1));
+  return least_word(_mm256_or_si256(keys.low, low), _mm256_or_si256(keys.high, high));
+}
+
+// The least keys of the right pixels that a left pixel's disparities reach, the nearest first. From
+// one left pixel to the next they move on by one, and the nearest is complete. Kept in registers: a
+// load from where other vectors have just been stored in part would wait for them.
+struct RightWinners {
+  __m256i low = _mm256_set1_epi16(-1);
+  __m256i high = _mm256_set1_epi16(-1);
+
+  std::uint16_t take(const Keys& keys) {
+    low = _mm256_min_epu16(low, keys.low);
+    high = _mm256_min_epu16(high, keys.high);
+    const auto nearest = static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm256_castsi256_si128(low)));
+    const __m256i middle = _mm256_permute2x128_si256(low, high, 0x21);
+    const __m256i none = _mm256_set1_epi16(-1);
+    low = _mm256_alignr_epi8(middle, low, 2);
+    high = _mm256_alignr_epi8(_mm256_permute2x128_si256(high, none, 0x21), high, 2);
+    return nearest;
+  }
+};
 
 // The fifth path, from the right, and the winners, now that all sums are there.
 void walk_left(const Penalties& p, int width, const StereoRow& row) {
-  const __m256i low_d = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const __m256i high_d = _mm256_add_epi16(low_d, _mm256_set1_epi16(16));
-  for (int i = 0; i < width + D; ++i) row.right_winner[i] = 0xffff;
+  const StereoRow local = row;  // else each store might have moved the pointers
   PathAlong along;
+  RightWinners right;
   for (int x = width - 1; x >= 0; --x) {
-    const __m256i path = along.step(load(row.cost + x * D), p);
-    const __m256i low = _mm256_add_epi16(load(row.sum + x * D), low_half(path));
-    const __m256i high = _mm256_add_epi16(load(row.sum + x * D + D / 2), high_half(path));
-    store(row.sum + x * D, low);
-    store(row.sum + x * D + D / 2, high);
-    const __m256i low_key = _mm256_or_si256(_mm256_slli_epi16(low, 5), low_d);
-    const __m256i high_key = _mm256_or_si256(_mm256_slli_epi16(high, 5), high_d);
-    keep_least(row.right_winner + width - 1 - x, low_key);
-    keep_least(row.right_winner + width - 1 - x + D / 2, high_key);
-    const __m256i outside = beyond(x);
-    const __m128i low_out = _mm256_castsi256_si128(outside);
-    const __m128i high_out = _mm256_extracti128_si256(outside, 1);
-    row.left_winner[x] =
-        least_word(_mm256_or_si256(low_key, _mm256_cvtepi8_epi16(low_out)),
-                   _mm256_or_si256(high_key, _mm256_cvtepi8_epi16(high_out)));
+    const __m256i path = along.step(load(local.cost + x * D), p);
+    std::uint16_t* const sum = local.sum + x * D;
+    const __m256i low = _mm256_add_epi16(load(sum), low_half(path));
+    const __m256i high = _mm256_add_epi16(load(sum + D / 2), high_half(path));
+    store(sum, low);
+    store(sum + D / 2, high);
+    const Keys keys = make_keys(low, high);
+    local.right_winner[width - 1 - x] = right.take(keys);
+    local.left_winner[x] = x < D - 1 ? least_inside(keys, x) : least_word(keys.low, keys.high);
   }
 }
 

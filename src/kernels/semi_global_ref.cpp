@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kernels/semi_global.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
+
+#include "kernels/semi_global.h"
 
 namespace darkling {
 
@@ -64,14 +64,14 @@ void sum_window(const std::uint8_t* const hamming[3], int width, std::uint8_t* c
 }
 
 void choose_winners(int width, const StereoRow& row) {
-  std::fill_n(row.right_winner, width + D, std::uint16_t{0xffff});
+  std::fill_n(row.right_winner, width, std::uint16_t{0xffff});
   for (int x = 0; x < width; ++x) {
     std::uint16_t best = 0xffff;
-    for (int d = 0; d < D; ++d) {
+    for (int d = 0; d < std::min(D, x + 1); ++d) {
       const auto key = static_cast<std::uint16_t>(row.sum[x * D + d] * D + d);
       std::uint16_t& right = row.right_winner[width - 1 - x + d];
       right = std::min(right, key);
-      if (d <= x) best = std::min(best, key);
+      best = std::min(best, key);
     }
     row.left_winner[x] = best;
   }

@@ -7,6 +7,7 @@
 #include "base/fixed_vector.h"
 #include "kernels/kernel_table.h"
 #include "kernels/sample_residuals.h"
+#include "vo/disparity_pyramid.h"
 #include "vo/frame_pyramid.h"
 
 namespace darkling {
@@ -27,6 +28,8 @@ struct KeyframeTemplate {
 // Memory of select_points().
 struct PointSelector {
   ImageView<std::uint16_t> saliency;
+  std::span<std::int16_t> strongest;       // of each column in a strip of rows
+  std::span<std::uint16_t> column_begins;  // of the grid, and where the last one ends
   struct Candidate {
     std::uint16_t x;
     std::uint16_t y;
@@ -43,17 +46,16 @@ struct PointSelector {
 
 // The pixels of one level that tell most about motion, spread over the image: the most salient one
 // with a known disparity of each cell of a grid with about as many cells as points are wanted.
-// @param disparity        of level `disparity_level`, in its pixels; kNoDisparity where unknown.
-// @param level            which level `planes` is; its candidates' disparities are in its pixels.
+// @param disparity  of the level; the candidates' disparities are in its pixels.
 // @return the candidates, at most as many as `selector` was allocated for.
 std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
-                                                  const PyramidLevel& planes, int level,
-                                                  ImageView<const float> disparity,
-                                                  int disparity_level,
+                                                  const PyramidLevel& planes,
+                                                  const DisparityPyramid::At& disparity,
                                                   const PointSelector& selector);
 
 // Turns candidates into template points: reference values, gradients and their Gram matrix.
-void build_template_level(std::span<const PointSelector::Candidate> candidates,
+void build_template_level(const KernelTable& kernels,
+                          std::span<const PointSelector::Candidate> candidates,
                           const PyramidLevel& level, double baseline_m, TemplateLevel& out);
 
 }  // namespace darkling

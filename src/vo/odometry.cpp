@@ -51,26 +51,28 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
   }
   {
     StageTimer timer(read_clock, estimate, Stage::kStereo);
-    const ImageView<std::uint8_t>& left_codes = left[dense_level].codes;
-    const ImageView<std::uint8_t>& right_codes = right[dense_level].codes;
+    const int dense = disparities.dense_level;
     if (!keyframe.is_empty()) {
-      (void)match_stereo(kernels, left_codes, right_codes, matcher);
-    } else if (are_eyes_swapped(kernels, left_codes, right_codes, matcher)) {
+      (void)match_stereo(kernels, left[dense].codes, right[dense].codes, matcher,
+                         disparities.levels[0]);
+    } else if (are_eyes_swapped(kernels, left[dense].codes, right[dense].codes, matcher,
+                                disparities.levels[0])) {
       estimate.reasons |= kReasonEyesSwapped;
       return false;
     }
+    reduce_disparities(disparities);
   }
   StageTimer timer(read_clock, estimate, Stage::kSelect);
   for (int l = 0; l < static_cast<int>(left.size()); ++l) {
     std::span<PointSelector::Candidate> chosen =
-        select_points(kernels, left[l], l, matcher.disparity, dense_level, selector);
+        select_points(kernels, left[l], disparities.at_level(l), selector);
     if (l == 0) {
-      search_disparities(kernels, left[0], right[0], dense_level, chosen);
+      search_disparities(kernels, left[0], right[0], disparities.dense_level, chosen);
       refine_disparities(kernels, left[0], right[0], chosen);
       chosen = drop_unknown(chosen);
       if (static_cast<int>(chosen.size()) < kMinKeyframePoints) return false;
     }
-    build_template_level(chosen, left[l], rig.baseline_m, keyframe.levels[l]);
+    build_template_level(kernels, chosen, left[l], rig.baseline_m, keyframe.levels[l]);
   }
   T_world_key = T_world_previous;
   estimate.is_keyframe = true;

@@ -12,56 +12,88 @@ namespace {
 // Gradients reach one pixel further and bilinear sampling two.
 constexpr int kBorder = 2;
 // Σ|∂φ| below which a pixel is flat: an edge of the planes is worth about 255 a plane it is in.
-constexpr std::uint16_t kMinSaliency = 64;
+constexpr int kMinSaliency = 64;
 
-// The disparity of a pixel `level` levels above that of `disparity`, in its own pixels: the median
-// of what is known in the block that the pixel was reduced from. Below that level (`level` < 0) it
-// is that of the coarser pixel that it became part of.
-float block_disparity(ImageView<const float> disparity, int level, int x, int y) {
-  if (level <= 0) {
-    const int u = std::min(x >> -level, disparity.width - 1);
-    const int v = std::min(y >> -level, disparity.height - 1);
-    return disparity.at(u, v) * static_cast<float>(1 << -level);
-  }
-  const int size = 1 << level;
-  constexpr int kMaxSamples = 64;  // of larger blocks an even subset
-  const int step = std::max(1, size / 8);
-  float known[kMaxSamples];
-  int count = 0;
-  for (int j = 0; j < size; j += step) {
-    for (int i = 0; i < size; i += step) {
-      const int u = std::min(x * size + i, disparity.width - 1);
-      const int v = std::min(y * size + j, disparity.height - 1);
-      const float d = disparity.at(u, v);
-      if (d >= 0.0f && count < kMaxSamples) known[count++] = d;
-    }
-  }
-  if (count == 0) return kNoDisparity;
-  std::nth_element(known, known + count / 2, known + count);
-  return known[count / 2] / static_cast<float>(size);
+// A saliency and its row in one number, so that the greatest number is the most salient pixel and,
+// of equal ones, the uppermost: (saliency / 2) · 16 + 15 - row. Half a saliency, at most 2040, and
+// four bits of row fit a signed 16-bit number, for which every processor has a maximum.
+constexpr int kStripRows = 16;
+std::int16_t strength(std::uint16_t saliency, int row) {
+  return static_cast<std::int16_t>((saliency >> 1) * kStripRows + (kStripRows - 1 - row));
 }
 
-// A rectangle of pixels, ends excluded.
-struct Cell {
-  int x_begin;
-  int x_end;
-  int y_begin;
-  int y_end;
-};
+// No pixel without a disparity may be chosen. Pixels that no disparity stands for (the odd last
+// column or row of an image that was halved) have none.
+void clear_unknown(const DisparityPyramid::At& disparity, ImageView<std::uint16_t> saliency) {
+  const int side = 1 << disparity.halvings;
+  const int width = std::min(disparity.disparity.width, saliency.width >> disparity.halvings);
+  for (int y = 0; y < saliency.height; ++y) {
+    const int v = y >> disparity.halvings;
+    std::uint16_t* out = saliency.row(y);
+    if (v >= disparity.disparity.height) {
+      std::fill_n(out, saliency.width, std::uint16_t{0});
+      continue;
+    }
+    const float* known = disparity.disparity.row(v);
+    for (int u = 0; u < width; ++u) {
+      if (known[u] < 0.0f) std::fill_n(out + u * side, side, std::uint16_t{0});
+    }
+    std::fill(out + width * side, out + saliency.width, std::uint16_t{0});
+  }
+}
 
-// The most salient pixel of a cell whose disparity is known; kNoDisparity when there is none.
-PointSelector::Candidate best_in_cell(const Cell& cell, ImageView<const std::uint16_t> saliency,
-                                      ImageView<const float> disparity, int level) {
-  PointSelector::Candidate best = {0, 0, kMinSaliency, kNoDisparity};
-  for (int y = cell.y_begin; y < cell.y_end; ++y) {
-    for (int x = cell.x_begin; x < cell.x_end; ++x) {
-      if (saliency.at(x, y) <= best.saliency) continue;
-      const float d = block_disparity(disparity, level, x, y);
-      if (d < 0.0f) continue;
-      best = {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), saliency.at(x, y), d};
+// The strengths of the strongest pixel of each column in rows [y_begin, y_end), at most kStripRows.
+void find_strongest(ImageView<const std::uint16_t> saliency, int y_begin, int y_end,
+                    std::span<std::int16_t> strongest) {
+  std::fill(strongest.begin(), strongest.end(), std::int16_t{0});
+  for (int y = y_begin; y < y_end; ++y) {
+    const std::uint16_t* row = saliency.row(y);
+    std::int16_t* __restrict out = strongest.data();
+    for (int x = 0; x < saliency.width; ++x) {
+      out[x] = std::max(out[x], strength(row[x], y - y_begin));
     }
   }
-  return best;
+}
+
+// The most salient pixel of a strip's columns [x_begin, x_end), the leftmost of equal ones.
+PointSelector::Candidate strongest_of(std::span<const std::int16_t> strongest, int x_begin,
+                                      int x_end, int y_begin) {
+  unsigned best = 0;  // strength, then how far to the left
+  for (int x = x_begin; x < x_end; ++x) {
+    best = std::max(best,
+                    static_cast<unsigned>(strongest[x]) << 16 | static_cast<unsigned>(0xffff - x));
+  }
+  const int key = static_cast<int>(best >> 16);
+  return {static_cast<std::uint16_t>(0xffff - (best & 0xffff)),
+          static_cast<std::uint16_t>(y_begin + kStripRows - 1 - key % kStripRows),
+          static_cast<std::uint16_t>(key / kStripRows * 2), kNoDisparity};
+}
+
+// The grid of cells, each of which gives a candidate.
+struct Grid {
+  int columns;
+  int rows;
+};
+
+Grid make_grid(int width, int height, int cells) {
+  const double cell_px = std::max(1.0, std::sqrt(double(width) * height / cells));
+  return {static_cast<int>(width / cell_px), static_cast<int>(height / cell_px)};
+}
+
+// Where part `i` of `parts` of an axis begins, clear of the border.
+int part_begin(int size, int parts, int i) {
+  return std::clamp(i * size / parts, kBorder, std::max(size - kBorder, kBorder));
+}
+
+// Merges one strip of a row of cells into its candidates, a candidate a column.
+void keep_stronger(std::span<const std::uint16_t> column_begins,
+                   std::span<const std::int16_t> strongest, int y_begin,
+                   std::span<PointSelector::Candidate> row) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const PointSelector::Candidate best =
+        strongest_of(strongest, column_begins[i], column_begins[i + 1], y_begin);
+    if (best.saliency > row[i].saliency) row[i] = best;
+  }
 }
 
 }  // namespace
@@ -69,39 +101,46 @@ PointSelector::Candidate best_in_cell(const Cell& cell, ImageView<const std::uin
 PointSelector allocate_point_selector(const RectifiedRig& rig, int points_per_level, Arena& arena) {
   PointSelector selector;
   selector.saliency = arena.allocate_image<std::uint16_t>(rig.width, rig.height, "saliency");
+  selector.strongest = arena.allocate<std::int16_t>(rig.width, "strongest of columns");
+  selector.column_begins = arena.allocate<std::uint16_t>(rig.width + 1, "columns of cells");
   selector.candidates =
       arena.allocate<PointSelector::Candidate>(points_per_level, "point candidates");
   return selector;
 }
 
 std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
-                                                  const PyramidLevel& planes, int level,
-                                                  ImageView<const float> disparity,
-                                                  int disparity_level,
+                                                  const PyramidLevel& planes,
+                                                  const DisparityPyramid::At& disparity,
                                                   const PointSelector& selector) {
   const int width = planes.grey.width;
   const int height = planes.grey.height;
   const ImageView<std::uint16_t> saliency{selector.saliency.data, width, height,
                                           selector.saliency.stride};
   kernels.saliency(planes.planes, saliency);
+  clear_unknown(disparity, saliency);
 
-  const int wanted = static_cast<int>(selector.candidates.size());
-  const double cell_px = std::max(1.0, std::sqrt(double(width) * height / wanted));
-  const int columns = static_cast<int>(width / cell_px);
-  const int rows = static_cast<int>(height / cell_px);
+  const Grid grid = make_grid(width, height, static_cast<int>(selector.candidates.size()));
+  const auto columns = static_cast<std::size_t>(grid.columns);
+  for (int i = 0; i <= grid.columns; ++i) {
+    selector.column_begins[i] = static_cast<std::uint16_t>(part_begin(width, grid.columns, i));
+  }
+  const std::span<std::int16_t> strongest =
+      selector.strongest.first(static_cast<std::size_t>(width));
   std::size_t count = 0;
-  for (int row = 0; row < rows; ++row) {
-    const int y_begin = std::max(kBorder, row * height / rows);
-    const int y_end = std::min(height - kBorder, (row + 1) * height / rows);
-    for (int column = 0; column < columns; ++column) {
-      const int x_begin = std::max(kBorder, column * width / columns);
-      const int x_end = std::min(width - kBorder, (column + 1) * width / columns);
-      const PointSelector::Candidate best =
-          best_in_cell({x_begin, x_end, y_begin, y_end}, saliency, disparity,
-                       level - disparity_level);
-      if (best.disparity_px >= 0.0f && count < selector.candidates.size()) {
-        selector.candidates[count++] = best;
-      }
+  for (int row = 0; row < grid.rows; ++row) {
+    // Cells of this row are put behind the candidates so far, and those that hold one moved up.
+    const std::span<PointSelector::Candidate> cells = selector.candidates.subspan(count, columns);
+    std::fill(cells.begin(), cells.end(), PointSelector::Candidate{0, 0, kMinSaliency, -1.0f});
+    const int y_end = part_begin(height, grid.rows, row + 1);
+    for (int y = part_begin(height, grid.rows, row); y < y_end; y += kStripRows) {
+      find_strongest(saliency, y, std::min(y + kStripRows, y_end), strongest);
+      keep_stronger(selector.column_begins, strongest, y, cells);
+    }
+    for (const PointSelector::Candidate& cell : cells) {
+      if (cell.saliency <= kMinSaliency) continue;
+      PointSelector::Candidate& chosen = selector.candidates[count++];
+      chosen = cell;
+      chosen.disparity_px = disparity(cell.x, cell.y);
     }
   }
   return selector.candidates.first(count);
