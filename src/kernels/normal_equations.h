@@ -21,6 +21,8 @@ struct NormalSums {
 // points that are not in the image.
 //
 // @param inverse_scale  1 / (8 σ²), so that squares · inverse_scale = (distance / σ)².
+// @pre what stands behind the last point is finite, as it is read and weighed by 0; its `squares`
+//      say that it is not in the image.
 // Exactness: single precision in a fixed order: point i goes to lane i mod 8, lanes are added up
 // as ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)). Every variant equals the reference bit for bit.
 // Cost: some 120 operations and 36 bytes a point.

@@ -28,7 +28,7 @@ struct AreaMap {
   // weights[phase * kMaxAreaTaps + tap]: the share of the box over each source pixel, in 1/256;
   // every phase sums to 256, and beyond `taps` it is 0. Used along x and along y. Where one pixel
   // has all the weight, 1/256 of it goes to a neighbour so that a byte can hold it: a grey level at
-  // most, and only beside an edge of half the range.
+  // most in each of the two directions, and only beside edges of half the range.
   const std::uint8_t* weights = nullptr;
   int taps = 0;
   double box_px = 0.0;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/bit_planes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <random>
 
-#include <opencv2/imgproc.hpp>
-
+#include "support/bit_planes_oracle.h"
 #include "support/pixels.h"
 
 namespace darkling {
@@ -16,146 +13,251 @@ using test::Fill;
 using test::GuardedImage;
 using test::GuardedLayout;
 using test::pixels_of;
-using test::round_half_up;
 
-constexpr int kMaxWidth = 3 * 4 + 6;  // px of eight bytes, past three of the widest vectors
-constexpr double kSigmas_px[] = {0.0, 0.5, 1.0, 1.25, 1.75};
+constexpr int kMaxWidth = 3 * 32 + 4;  // px, past three of the widest vectors
 
-// One plane of the codes, 0 or 255, h × w.
-cv::Mat plane_of(const ImageView<const std::uint8_t>& codes, int c) {
-  cv::Mat plane(codes.height, codes.width, CV_64F);
-  for (int y = 0; y < codes.height; ++y) {
-    for (int x = 0; x < codes.width; ++x) {
-      plane.at<double>(y, x) = (codes.at(x, y) >> c & 1) != 0 ? 255.0 : 0.0;
-    }
+// The scratch of one width, right before a guard page.
+class GuardedScratch {
+ public:
+  explicit GuardedScratch(int width)
+      : bytes_({.width = static_cast<int>(bit_planes_scratch_bytes(width)), .height = 1}) {}
+  [[nodiscard]] std::span<std::uint8_t> span() {
+    return {bytes_.view().data, static_cast<std::size_t>(bytes_.view().width)};
   }
-  return plane;
-}
+  [[nodiscard]] auto padding_is_untouched() const { return bytes_.padding_is_untouched(); }
 
-// Both taps in one row, symmetric, as a fraction.
-cv::Mat kernel_of(const SmoothingTaps& taps) {
-  cv::Mat kernel(1, 2 * taps.radius + 1, CV_64F);
-  for (int k = -taps.radius; k <= taps.radius; ++k) {
-    kernel.at<double>(0, taps.radius + k) = taps.w[std::abs(k)] / 64.0;
-  }
-  return kernel;
-}
+ private:
+  GuardedImage<std::uint8_t> bytes_;
+};
 
-void round_all(cv::Mat& image) {
-  for (double& value : cv::Mat_<double>(image)) value = round_half_up(value);
-}
+struct Outcome {
+  std::vector<std::uint8_t> codes;
+  std::vector<std::uint8_t> planes;
+};
 
-enum class Rounding { kEachDirection, kNever };
-
-// Every plane by OpenCV in doubles, interleaved.
-std::vector<double> planes_oracle(const ImageView<const std::uint8_t>& codes,
-                                  const SmoothingTaps& taps, Rounding rounding) {
-  const cv::Mat one = cv::Mat::ones(1, 1, CV_64F);
-  const cv::Mat kernel = kernel_of(taps);
-  std::vector<double> planes(static_cast<std::size_t>(codes.width * codes.height * kPlaneCount));
-  for (int c = 0; c < kPlaneCount; ++c) {
-    cv::Mat plane = plane_of(codes, c);
-    cv::sepFilter2D(plane, plane, CV_64F, one, kernel, {-1, -1}, 0.0, cv::BORDER_REPLICATE);
-    if (rounding == Rounding::kEachDirection) round_all(plane);
-    cv::sepFilter2D(plane, plane, CV_64F, kernel, one, {-1, -1}, 0.0, cv::BORDER_REPLICATE);
-    if (rounding == Rounding::kEachDirection) round_all(plane);
-    for (int i = 0; i < codes.width * codes.height; ++i) {
-      planes[i * kPlaneCount + c] = plane.at<double>(i / codes.width, i % codes.width);
-    }
-  }
-  return planes;
+// Runs one variant on `grey`, outputs in guarded memory shaped as `layout`.
+Outcome run(BitPlanesFn* bit_planes, const ImageView<const std::uint8_t>& grey,
+            const GuardedLayout& layout) {
+  GuardedImage<std::uint8_t> codes(layout);
+  GuardedImage<std::uint8_t> planes(
+      test::resized(layout, layout.width * kPlaneCount, layout.height));
+  GuardedScratch scratch(layout.width);
+  bit_planes(grey, codes.view(), scratch.span(), planes.view());
+  EXPECT_TRUE(codes.padding_is_untouched());
+  EXPECT_TRUE(planes.padding_is_untouched());
+  EXPECT_TRUE(scratch.padding_is_untouched());
+  return {pixels_of(codes.view()), pixels_of(planes.view())};
 }
 
 class EachBitPlanes : public ::testing::TestWithParam<KernelTable> {
  protected:
-  // Compares with the oracle and the reference, all memory guarded.
-  static void check(BitPlanesFn* bit_planes, const GuardedLayout& layout, Fill fill,
-                    const SmoothingTaps& taps, unsigned seed) {
-    SCOPED_TRACE(test::describe(layout, fill));
-    const int width = layout.width;
-    const GuardedLayout bytes = test::resized(layout, width * kPlaneCount, layout.height);
-    GuardedImage<std::uint8_t> codes(layout);
-    GuardedImage<std::uint8_t> dst(bytes);
-    GuardedImage<std::uint8_t> expected(bytes);
-    GuardedImage<std::uint8_t> scratch(
-        {.width = kPlaneCount * (width + 2 * SmoothingTaps::kMaxRadius), .height = 1});
-    test::fill_image(codes.view(), fill, seed);
-    bit_planes(codes.view(), taps, scratch.view().data, dst.view());
-    const std::vector<std::uint8_t> planes = pixels_of(dst.view());
-    ASSERT_EQ(std::vector<double>(planes.begin(), planes.end()),
-              planes_oracle(codes.view(), taps, Rounding::kEachDirection));
-    bit_planes_ref(codes.view(), taps, scratch.view().data, expected.view());
-    ASSERT_EQ(planes, pixels_of(expected.view()));
-    ASSERT_TRUE(codes.padding_is_untouched());
-    ASSERT_TRUE(dst.padding_is_untouched());
-    ASSERT_TRUE(scratch.padding_is_untouched());
+  [[nodiscard]] static Outcome run_param(const ImageView<const std::uint8_t>& grey) {
+    return run(GetParam().bit_planes, grey, {.width = grey.width, .height = grey.height});
   }
 };
 
-TEST_P(EachBitPlanes, EqualOpenCvAndTheReferenceOnEveryShape) {
+TEST_P(EachBitPlanes, EqualTheOracleOnEveryShapeAndFill) {
   unsigned seed = 1;
   test::for_each_shape(kMaxWidth, [&](const GuardedLayout& layout) {
-    if (HasFailure()) return;
-    const Fill fill = test::kAllFills[seed % std::size(test::kAllFills)];
-    const double sigma_px = kSigmas_px[seed % std::size(kSigmas_px)];
-    check(GetParam().bit_planes, layout, fill, make_smoothing_taps(sigma_px), seed++);
+    for (const Fill fill : test::kAllFills) {
+      if (HasFailure()) return;
+      SCOPED_TRACE(test::describe(layout, fill));
+      GuardedImage<std::uint8_t> grey(layout);
+      test::fill_image(grey.view(), fill, seed++);
+      const std::vector<std::uint8_t> before = pixels_of(grey.view());
+      const Outcome outcome = run(GetParam().bit_planes, grey.view(), layout);
+      const test::GreyLevels codes = test::codes_oracle(test::blur_oracle(grey.view()));
+      ASSERT_EQ(outcome.codes, test::to_bytes(codes));
+      ASSERT_EQ(outcome.planes, test::planes_oracle(codes));
+      ASSERT_EQ(pixels_of(grey.view()), before);
+      ASSERT_TRUE(grey.padding_is_untouched());
+    }
   });
 }
 
-TEST_P(EachBitPlanes, EqualOpenCvInImagesHigherAndWiderThanTheTaps) {
-  unsigned seed = 7;
-  for (const double sigma_px : kSigmas_px) {
-    SCOPED_TRACE(sigma_px);
-    for (int height = 6; height <= 12; ++height) {
-      check(GetParam().bit_planes, {.width = 37, .height = height, .row_padding = 3},
-            Fill::kUniform, make_smoothing_taps(sigma_px), seed++);
+TEST_P(EachBitPlanes, EqualTheReferenceBitForBit) {
+  unsigned seed = 1000;
+  test::for_each_shape(kMaxWidth, [&](const GuardedLayout& layout) {
+    if (HasFailure()) return;
+    SCOPED_TRACE(test::describe(layout));
+    GuardedImage<std::uint8_t> grey(layout);
+    test::fill_image(grey.view(), Fill::kUniform, seed++);
+    // Another stride and start than the source: nothing may assume that they agree.
+    const GuardedLayout other = {.width = layout.width,
+                                 .height = layout.height,
+                                 .row_padding = layout.row_padding + 3,
+                                 .distance_to_guard = 5};
+    const Outcome outcome = run(GetParam().bit_planes, grey.view(), other);
+    const Outcome expected = run(bit_planes_ref, grey.view(), layout);
+    ASSERT_EQ(outcome.codes, expected.codes);
+    ASSERT_EQ(outcome.planes, expected.planes);
+  });
+}
+
+TEST_P(EachBitPlanes, AreTheSameInHighImages) {
+  for (int height = 6; height <= 40; height += 3) {
+    SCOPED_TRACE(height);
+    GuardedImage<std::uint8_t> grey({.width = 37, .height = height, .row_padding = 3});
+    test::fill_image(grey.view(), Fill::kUniform, static_cast<unsigned>(height));
+    const test::GreyLevels codes = test::codes_oracle(test::blur_oracle(grey.view()));
+    ASSERT_EQ(run_param(grey.view()).planes, test::planes_oracle(codes));
+  }
+}
+
+TEST_P(EachBitPlanes, ComputeTheCodesOrThePlanesAloneWhenTheOthersAreNotAskedFor) {
+  for (const int width : {1, 3, 33, 64, 100}) {
+    SCOPED_TRACE(width);
+    const GuardedLayout layout = {.width = width, .height = 7, .row_padding = 2};
+    GuardedImage<std::uint8_t> grey(layout);
+    test::fill_image(grey.view(), Fill::kUniform, static_cast<unsigned>(width));
+    const Outcome both = run(GetParam().bit_planes, grey.view(), layout);
+    GuardedImage<std::uint8_t> codes(layout);
+    GuardedImage<std::uint8_t> planes(test::resized(layout, width * kPlaneCount, 7));
+    GuardedScratch scratch(width);
+    GetParam().bit_planes(grey.view(), codes.view(), scratch.span(), {});
+    GetParam().bit_planes(grey.view(), {}, scratch.span(), planes.view());
+    EXPECT_EQ(pixels_of(codes.view()), both.codes);
+    EXPECT_EQ(pixels_of(planes.view()), both.planes);
+    EXPECT_TRUE(codes.padding_is_untouched());
+    EXPECT_TRUE(planes.padding_is_untouched());
+  }
+}
+
+TEST_P(EachBitPlanes, IgnoreEveryStrictlyIncreasingMapOfTheBlurredImage) {
+  std::mt19937 random(7);
+  for (unsigned trial = 0; trial < 50; ++trial) {
+    GuardedImage<std::uint8_t> grey({.width = 71, .height = 9, .row_padding = 2});
+    test::fill_image(grey.view(), Fill::kUniform, trial);
+    test::GreyLevels mapped = test::blur_oracle(grey.view());
+    std::vector<int> map(256, 0);
+    for (std::size_t i = 1; i < map.size(); ++i) {
+      map[i] = map[i - 1] + 1 + static_cast<int>(random() % 1000);
+    }
+    for (int& level : mapped.levels) level = map[static_cast<std::size_t>(level)];
+    ASSERT_EQ(run_param(grey.view()).codes, test::to_bytes(test::codes_oracle(mapped)));
+  }
+}
+
+TEST_P(EachBitPlanes, IgnoreABrighterImageAndAnExactGain) {
+  GuardedImage<std::uint8_t> plain({.width = 53, .height = 11});
+  GuardedImage<std::uint8_t> mapped({.width = 53, .height = 11});
+  for (const auto& [gain, offset] : {std::pair{1, 90}, {2, 0}, {2, 25}, {3, 7}}) {
+    SCOPED_TRACE(gain);
+    test::fill_image(plain.view(), Fill::kUniform, 5);
+    for (int i = 0; i < 53 * 11; ++i) {
+      std::uint8_t& level = plain.view().at(i % 53, i / 53);
+      level = static_cast<std::uint8_t>(level % 5 * 16);  // sixteenths of the blur are whole
+      mapped.view().at(i % 53, i / 53) = static_cast<std::uint8_t>(gain * level + offset);
+    }
+    const Outcome before = run_param(plain.view());
+    const Outcome after = run_param(mapped.view());
+    EXPECT_EQ(after.codes, before.codes);
+    EXPECT_EQ(after.planes, before.planes);
+  }
+}
+
+// What a code of the neighbours at `bits` weighs.
+int code_of(std::initializer_list<int> bits) {
+  int code = 0;
+  for (const int bit : bits) code |= 1 << bit;
+  return code;
+}
+
+TEST_P(EachBitPlanes, NumberTheNeighboursInRasterOrder) {
+  // A spot becomes a bump of 3×3 pixels; around it, only neighbours on the bump are brighter.
+  GuardedImage<std::uint8_t> grey({.width = 9, .height = 9});
+  test::fill_image(grey.view(), Fill::kConstant, 0);
+  grey.view().at(4, 4) = 255;
+  const std::vector<std::uint8_t> codes = run_param(grey.view()).codes;
+  const struct {
+    int x;
+    int y;
+    int code;
+  } cases[] = {{2, 2, code_of({7})},
+               {4, 2, code_of({5, 6, 7})},
+               {6, 2, code_of({5})},
+               {2, 4, code_of({2, 4, 7})},
+               {4, 4, 0},
+               {6, 4, code_of({0, 3, 5})},
+               {2, 6, code_of({2})},
+               {4, 6, code_of({0, 1, 2})},
+               {6, 6, code_of({0})},
+               {3, 3, code_of({4, 6, 7})},
+               {0, 0, 0}};
+  for (const auto& at : cases) {
+    EXPECT_EQ(codes[static_cast<std::size_t>(at.y * 9 + at.x)], at.code) << at.x << " " << at.y;
+  }
+}
+
+TEST_P(EachBitPlanes, AreZeroInAConstantImage) {
+  for (const unsigned level : {0U, 1U, 128U, 255U}) {
+    GuardedImage<std::uint8_t> grey({.width = 40, .height = 12});
+    test::fill_image(grey.view(), Fill::kConstant, level);
+    const Outcome outcome = run_param(grey.view());
+    EXPECT_EQ(outcome.codes, std::vector<std::uint8_t>(40 * 12, 0)) << level;
+    EXPECT_EQ(outcome.planes, std::vector<std::uint8_t>(40 * 12 * kPlaneCount, 0)) << level;
+  }
+}
+
+TEST_P(EachBitPlanes, KeepPlanesOfOneValueExactly) {
+  constexpr int kWidth = 45;
+  GuardedImage<std::uint8_t> ramp({.width = kWidth, .height = 10});
+  for (int i = 0; i < kWidth * 10; ++i) {
+    ramp.view().at(i % kWidth, i / kWidth) = static_cast<std::uint8_t>(5 * (i % kWidth));
+  }
+  const std::vector<std::uint8_t> planes = run_param(ramp.view()).planes;
+  for (int i = 0; i < kWidth * 10; ++i) {
+    if (i % kWidth >= kWidth - 4) continue;  // the last column has no brighter one beside it
+    for (int c = 0; c < kPlaneCount; ++c) {
+      const bool is_to_the_right = c == 2 || c == 4 || c == 7;
+      ASSERT_EQ(planes[static_cast<std::size_t>(i * kPlaneCount + c)], is_to_the_right ? 255 : 0)
+          << "column " << i % kWidth << ", plane " << c;
     }
   }
 }
 
-TEST_P(EachBitPlanes, LieWithinAGreyLevelOfSmoothingWithoutRounding) {
-  GuardedImage<std::uint8_t> codes({.width = 40, .height = 30});
-  GuardedImage<std::uint8_t> dst({.width = 40 * kPlaneCount, .height = 30});
-  std::vector<std::uint8_t> scratch(kPlaneCount * (40 + 2 * SmoothingTaps::kMaxRadius));
-  test::fill_image(codes.view(), Fill::kUniform, 3);
-  const SmoothingTaps taps = make_smoothing_taps(1.25);
-  GetParam().bit_planes(codes.view(), taps, scratch.data(), dst.view());
-  const std::vector<std::uint8_t> planes = pixels_of(dst.view());
-  const std::vector<double> exact = planes_oracle(codes.view(), taps, Rounding::kNever);
-  for (std::size_t i = 0; i < planes.size(); ++i) ASSERT_NEAR(planes[i], exact[i], 1.0);
+TEST_P(EachBitPlanes, LieUpToThreeAboveTheBinomialFilterWithoutRounding) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    GuardedImage<std::uint8_t> grey({.width = 64, .height = 48});
+    test::fill_image(grey.view(), Fill::kUniform, seed);
+    const Outcome outcome = run_param(grey.view());
+    const test::GreyLevels codes = test::codes_oracle(test::blur_oracle(grey.view()));
+    const std::vector<double> exact = test::binomial_planes(codes);
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      ASSERT_GE(outcome.planes[i], exact[i]);
+      ASSERT_LE(outcome.planes[i], exact[i] + 3.0);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, EachBitPlanes, ::testing::ValuesIn(test::available_tables()),
                          test::table_name);
 
-TEST(BitPlanes, PutBitCIntoByteCOfItsPixel) {
-  const std::uint8_t codes[2] = {0b1010'0001, 0b0000'0010};
-  std::uint8_t planes[16] = {};
-  std::uint8_t scratch[kPlaneCount * (2 + 2 * SmoothingTaps::kMaxRadius)];
-  bit_planes_ref({codes, 2, 1, 2}, make_smoothing_taps(0.0), scratch, {planes, 16, 1, 16});
-  const std::uint8_t expected[16] = {255, 0, 0, 0, 0, 255, 0, 255, 0, 255, 0, 0, 0, 0, 0, 0};
-  EXPECT_TRUE(std::equal(planes, planes + 16, expected));
+TEST(BitPlanes, BlurWithRoundingHalfUpBeforeTheyCompare) {
+  // Beside a spot of 2, 4/16 round to 0 and stay equal; the spot itself, 8/16, becomes 1.
+  GuardedImage<std::uint8_t> grey({.width = 5, .height = 5});
+  test::fill_image(grey.view(), Fill::kConstant, 0);
+  grey.view().at(2, 2) = 2;
+  const Outcome outcome = run(bit_planes_ref, grey.view(), {.width = 5, .height = 5});
+  EXPECT_EQ(outcome.codes[5 * 1 + 1], code_of({7}));  // the spot is to the lower right
+  EXPECT_EQ(outcome.codes[5 * 2 + 1], code_of({4}));
+  EXPECT_EQ(outcome.codes[0], 0);
 }
 
-TEST(SmoothingTaps, SumTo64AndFollowTheGaussian) {
-  for (double sigma_px = 0.05; sigma_px <= 1.75; sigma_px += 0.05) {
-    SCOPED_TRACE(sigma_px);
-    const SmoothingTaps taps = make_smoothing_taps(sigma_px);
-    const int sides = std::accumulate(taps.w.begin() + 1, taps.w.end(), 0);
-    EXPECT_EQ(taps.w[0] + 2 * sides, 64);
-    const cv::Mat gaussian = cv::getGaussianKernel(2 * SmoothingTaps::kMaxRadius + 1, sigma_px);
-    for (int k = 0; k <= SmoothingTaps::kMaxRadius; ++k) {
-      // Rounding to 1/64; the middle tap takes what the others leave.
-      const double bound = k == 0 ? SmoothingTaps::kMaxRadius : 0.5;
-      EXPECT_NEAR(taps.w[k], 64.0 * gaussian.at<double>(SmoothingTaps::kMaxRadius + k), bound);
-      EXPECT_TRUE(k <= taps.radius || taps.w[k] == 0) << k;
-    }
-  }
-}
-
-TEST(SmoothingTaps, RefuseASigmaThatTheyCannotHold) {
-  EXPECT_DEATH((void)make_smoothing_taps(1.8), "smoothing sigma");
-  EXPECT_DEATH((void)make_smoothing_taps(-0.1), "smoothing sigma");
+TEST(BitPlanes, RefuseWhatDoesNotFit) {
+  std::uint8_t grey[4] = {};
+  std::uint8_t codes[4] = {};
+  alignas(64) static std::uint8_t scratch[16384];
+  std::uint8_t planes[32] = {};
+  EXPECT_DEATH(bit_planes_ref({grey, 0, 1, 1}, {}, scratch, {}), "at least one pixel");
+  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, {codes, 2, 2, 2}, scratch, {}),
+               "one census code a pixel");
+  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, {}, scratch, {planes, 16, 2, 16}),
+               "eight bytes of planes a pixel");
+  const std::size_t needed = bit_planes_scratch_bytes(4);
+  ASSERT_LE(needed, sizeof(scratch));
+  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, {}, {scratch, needed - 1}, {planes, 32, 1, 32}),
+               "scratch is too small");
 }
 
 }  // namespace

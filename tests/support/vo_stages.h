@@ -11,35 +11,30 @@
 
 namespace darkling::test {
 
-// One eye's pyramid and planes, filled as the odometry fills them.
+// One eye's pyramid, planes and codes, filled as the odometry fills them.
 class EyeStages {
  public:
-  EyeStages(const RectifiedRig& rig, int level_count)
+  // @param matched_level  the level that stereo matches; it has codes, as level 0 has.
+  EyeStages(const RectifiedRig& rig, int level_count, int matched_level = 0)
       : arena_(std::size_t(rig.width + 64) * (rig.height + 2) * 40 + (1u << 20)),
-        pyramid_(allocate_pyramid(rig, level_count, arena_)),
-        scratch_(allocate_plane_scratch(rig, arena_)),
-        codes_(arena_.allocate_image<std::uint8_t>(rig.width, rig.height, "codes")) {}
+        pyramid_(allocate_pyramid(rig, {level_count, level_count, matched_level}, arena_)),
+        scratch_(allocate_plane_scratch(rig, arena_)) {}
 
   // To be painted before prepare().
   [[nodiscard]] ImageView<std::uint8_t> grey() { return pyramid_[0].grey; }
   void prepare(const KernelTable& kernels) {
     build_pyramid(kernels, pyramid_);
-    for (int l = static_cast<int>(pyramid_.size()) - 1; l >= 0; --l) {
-      compute_planes(kernels, make_smoothing_taps(kPlaneSigmaPx), scratch_, pyramid_[l]);
-    }
-    const ImageView<std::uint8_t> codes = codes_of(scratch_, pyramid_[0]);
-    for (int y = 0; y < codes.height; ++y) {
-      std::copy_n(codes.row(y), codes.width, codes_.row(y));
-    }
+    for (PyramidLevel& level : pyramid_) compute_planes(kernels, scratch_, level);
   }
   [[nodiscard]] const FramePyramid& pyramid() const { return pyramid_; }
-  [[nodiscard]] ImageView<const std::uint8_t> codes() const { return codes_; }  // of level 0
+  [[nodiscard]] ImageView<const std::uint8_t> codes(int level = 0) const {
+    return pyramid_[level].codes;
+  }
 
  private:
   Arena arena_;
   FramePyramid pyramid_;
-  PlaneScratch scratch_;
-  ImageView<std::uint8_t> codes_;
+  std::span<std::uint8_t> scratch_;
 };
 
 // A keyframe's template of an eye, from disparities that the test knows.
@@ -48,15 +43,15 @@ class TemplateStages {
   TemplateStages(const RectifiedRig& rig, int level_count, int points_per_level)
       : rig_(rig),
         arena_(std::size_t(rig.width + 64) * (rig.height + 2) * 8 +
-               std::size_t(points_per_level) * (16 + 64 * level_count + 16) + (1u << 20)),
+               std::size_t(points_per_level) * (32 + 64 * level_count) + (1u << 20)),
         disparity_(arena_.allocate_image<float>(rig.width, rig.height, "disparity")),
         selector_(allocate_point_selector(rig, points_per_level, arena_)),
         keyframe_(allocate_template(level_count, points_per_level, arena_)),
-        scratch_(allocate_alignment_scratch(points_per_level, arena_)) {}
+        residuals_(allocate_residuals(points_per_level, arena_)) {}
 
   [[nodiscard]] ImageView<float> disparity() { return disparity_; }
   [[nodiscard]] const PointSelector& selector() const { return selector_; }
-  [[nodiscard]] const AlignmentScratch& scratch() const { return scratch_; }
+  [[nodiscard]] const PointResiduals& residuals() const { return residuals_; }
   [[nodiscard]] KeyframeTemplate& keyframe() { return keyframe_; }
 
   // The true disparities of a world seen from `T_world_camera`.
@@ -70,7 +65,7 @@ class TemplateStages {
   }
   void build(const KernelTable& kernels, const FramePyramid& pyramid) {
     for (int l = 0; l < static_cast<int>(pyramid.size()); ++l) {
-      const auto chosen = select_points(kernels, pyramid[l], l, disparity_, selector_);
+      const auto chosen = select_points(kernels, pyramid[l], l, disparity_, 0, selector_);
       build_template_level(chosen, pyramid[l], rig_.baseline_m, keyframe_.levels[l]);
     }
   }
@@ -81,7 +76,7 @@ class TemplateStages {
   ImageView<float> disparity_;
   PointSelector selector_;
   KeyframeTemplate keyframe_;
-  AlignmentScratch scratch_;
+  PointResiduals residuals_;
 };
 
 }  // namespace darkling::test

@@ -23,7 +23,7 @@ class AlignFrame : public ::testing::Test {
   Alignment align(const Se3& T_key_current, std::span<const Se3> guesses) {
     world_.render(rig_, T_key_current, eye_.grey());
     eye_.prepare(kernels_);
-    return align_frame(kernels_, key_.keyframe(), eye_.pyramid(), guesses, key_.scratch());
+    return align_frame(kernels_, key_.keyframe(), eye_.pyramid(), guesses, key_.residuals());
   }
   Alignment align_from_rest(const Se3& T_key_current) {
     const Se3 rest;
@@ -33,20 +33,19 @@ class AlignFrame : public ::testing::Test {
   // Root mean square distance, px, between where the template's points are and where the alignment
   // puts them.
   [[nodiscard]] double error_px(const Alignment& alignment, const Se3& T_key_current) {
-    const auto pixel = [&](const Se3& T_current_key, const TemplatePoint& point) {
-      const double depth_m = rig_.focal_px / point.inverse_depth_focal;
-      const Vector3 p(point.x / rig_.focal_px * depth_m, point.y / rig_.focal_px * depth_m,
+    const TemplatePoints& points = key_.keyframe().levels[0].points;
+    const auto pixel = [&](const Se3& T_current_key, int i) {
+      const double depth_m = rig_.focal_px / points.inverse_depth_focal[i];
+      const Vector3 p(points.x[i] / rig_.focal_px * depth_m, points.y[i] / rig_.focal_px * depth_m,
                       depth_m);
       const Vector3 q = T_current_key * p;
       return Eigen::Vector2d(rig_.focal_px * q.head<2>() / q.z());
     };
     double sum = 0.0;
-    const auto points = key_.keyframe().levels[0].points();
-    for (const TemplatePoint& point : points) {
-      sum += (pixel(alignment.T_current_key, point) - pixel(T_key_current.inverse(), point))
-                 .squaredNorm();
+    for (int i = 0; i < points.count; ++i) {
+      sum += (pixel(alignment.T_current_key, i) - pixel(T_key_current.inverse(), i)).squaredNorm();
     }
-    return std::sqrt(sum / static_cast<double>(points.size()));
+    return std::sqrt(sum / points.count);
   }
 
   RectifiedRig rig_ = test::ideal_rig();
@@ -146,7 +145,7 @@ TEST_F(AlignFrame, SaysThatNothingIsVisibleWhenItLooksTheOtherWay) {
 }
 
 TEST_F(AlignFrame, SaysThatNothingIsVisibleOfAnEmptyTemplate) {
-  for (TemplateLevel& level : key_.keyframe().levels) level.count = 0;
+  for (TemplateLevel& level : key_.keyframe().levels) level.points.count = 0;
   const Alignment alignment = align_from_rest(Se3());
   EXPECT_EQ(alignment.score.visible_count, 0);
   EXPECT_FALSE(alignment.has_converged);
@@ -158,7 +157,7 @@ TEST_F(AlignFrame, StaysFiniteOnFlatAndOnUnrelatedFrames) {
     test::fill_image(eye_.grey(), fill, 1);
     eye_.prepare(kernels_);
     const Alignment alignment =
-        align_frame(kernels_, key_.keyframe(), eye_.pyramid(), {&rest, 1}, key_.scratch());
+        align_frame(kernels_, key_.keyframe(), eye_.pyramid(), {&rest, 1}, key_.residuals());
     EXPECT_TRUE(alignment.T_current_key.matrix().allFinite()) << test::name_of(fill);
     EXPECT_GT(alignment.score.cost, 0.6) << test::name_of(fill);
   }
@@ -170,10 +169,10 @@ TEST_F(AlignFrame, GivesTheSameBitsWithEveryKernel) {
   eye_.prepare(kernels_);
   const Se3 rest;
   const Alignment expected =
-      align_frame(kernels_, key_.keyframe(), eye_.pyramid(), {&rest, 1}, key_.scratch());
+      align_frame(kernels_, key_.keyframe(), eye_.pyramid(), {&rest, 1}, key_.residuals());
   for (const KernelTable& kernels : test::available_tables()) {
     const Alignment alignment =
-        align_frame(kernels, key_.keyframe(), eye_.pyramid(), {&rest, 1}, key_.scratch());
+        align_frame(kernels, key_.keyframe(), eye_.pyramid(), {&rest, 1}, key_.residuals());
     EXPECT_EQ(alignment.T_current_key.matrix(), expected.T_current_key.matrix()) << kernels.name;
     EXPECT_EQ(alignment.score.cost, expected.score.cost) << kernels.name;
   }

@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <numeric>
-#include <random>
-
-#include <gmock/gmock.h>
+#include <cmath>
 
 #include "geometry/frames.h"
 #include "support/kernel_cases.h"
@@ -41,13 +37,12 @@ TEST(FramePyramid, HalvesTheCameraWithTheHalfPixelShift) {
   RectifiedRig rig = test::ideal_rig();
   rig.cx = 80.25;
   Arena arena(4u << 20);
-  const FramePyramid pyramid = allocate_pyramid(rig, 3, arena);
+  const FramePyramid pyramid = allocate_pyramid(rig, {3, 2, 1}, arena);
   ASSERT_EQ(pyramid.size(), 3u);
   for (int l = 0; l < 3; ++l) {
     const double factor = 1 << l;
     EXPECT_EQ(pyramid[l].grey.width, 160 >> l);
     EXPECT_EQ(pyramid[l].grey.height, 120 >> l);
-    EXPECT_EQ(pyramid[l].planes.width, (160 >> l) * kPlaneCount);
     EXPECT_DOUBLE_EQ(pyramid[l].focal_px, rig.focal_px / factor);
     EXPECT_DOUBLE_EQ(pyramid[l].cx, reduce_pixel(rig.cx, factor));
     EXPECT_DOUBLE_EQ(pyramid[l].cy, reduce_pixel(rig.cy, factor));
@@ -79,70 +74,74 @@ TEST(FramePyramid, KeepsABlobOnItsRayOnEveryLevel) {
   }
 }
 
-// `levels` different grey levels out of 256, in order.
-std::vector<std::uint8_t> random_increasing_map(int levels, std::mt19937& random) {
-  std::vector<std::uint8_t> map(256);
-  std::iota(map.begin(), map.end(), std::uint8_t{0});
-  std::shuffle(map.begin(), map.end(), random);
-  map.resize(static_cast<std::size_t>(levels));
-  std::sort(map.begin(), map.end());
-  return map;
-}
-
-TEST(BitPlanesOfAnImage, IgnoreEveryStrictlyIncreasingGreyMapWhenNothingIsSmoothed) {
-  constexpr int kLevels = 90;
-  std::mt19937 random(3);
+TEST(FramePyramid, HasPlanesAndCodesOnlyWhereTheLayoutWantsThem) {
   Arena arena(4u << 20);
-  const auto plain = arena.allocate_image<std::uint8_t>(53, 41, "plain");
-  const auto mapped = arena.allocate_image<std::uint8_t>(53, 41, "mapped");
-  const auto codes = arena.allocate_image<std::uint8_t>(53, 41, "codes");
-  const auto planes = arena.allocate_image<std::uint8_t>(53 * kPlaneCount, 41, "planes");
-  const auto row = arena.allocate<std::uint8_t>((53 + 8) * kPlaneCount, "row");
-  for (const KernelTable& kernels : test::available_tables()) {
-    const auto planes_of = [&](const ImageView<const std::uint8_t>& image) {
-      kernels.census(image, codes);
-      kernels.bit_planes(codes, make_smoothing_taps(0.0), row.data(), planes);
-      return test::pixels_of(planes);
-    };
-    for (int trial = 0; trial < 20; ++trial) {
-      const std::vector<std::uint8_t> map = random_increasing_map(kLevels, random);
-      for (int i = 0; i < 53 * 41; ++i) {
-        plain.at(i % 53, i / 53) = static_cast<std::uint8_t>(random() % kLevels);
-        mapped.at(i % 53, i / 53) = map[plain.at(i % 53, i / 53)];
-      }
-      ASSERT_EQ(planes_of(plain), planes_of(mapped)) << kernels.name;
-    }
+  const FramePyramid pyramid = allocate_pyramid(test::ideal_rig(), {3, 2, 1}, arena);
+  for (int l = 0; l < 3; ++l) {
+    EXPECT_EQ(pyramid[l].planes.is_empty(), l == 2) << l;
+    EXPECT_EQ(pyramid[l].codes.is_empty(), l == 2) << l;
+    if (l == 2) continue;
+    EXPECT_TRUE(pyramid[l].planes.has_size((160 >> l) * kPlaneCount, 120 >> l));
+    EXPECT_TRUE(pyramid[l].codes.has_size(160 >> l, 120 >> l));
   }
+  const FramePyramid other = allocate_pyramid(test::ideal_rig(), {3, 1, 2}, arena);
+  EXPECT_FALSE(other[0].codes.is_empty());
+  EXPECT_TRUE(other[1].codes.is_empty());
+  EXPECT_FALSE(other[2].codes.is_empty());
+  EXPECT_TRUE(other[2].planes.is_empty());
 }
 
-TEST(BitPlanesOfAnImage, ChangeWhenAGreyMapTurnsTheOrderRound) {
-  Arena arena(1u << 20);
-  const auto image = arena.allocate_image<std::uint8_t>(20, 20, "image");
-  const auto codes = arena.allocate_image<std::uint8_t>(20, 20, "codes");
+std::vector<std::uint8_t> codes_of(test::EyeStages& eye) {
+  eye.prepare(KernelTable());
+  return test::pixels_of(eye.codes());
+}
+
+TEST(CodesOfAnImage, ChangeWhenAGreyMapTurnsTheOrderRoundAndNotWhenAllIsBrighter) {
+  test::EyeStages eye(test::ideal_rig(), 1);
+  const ImageView<std::uint8_t> image = eye.grey();
+  const auto change_all = [&image](const auto& change) {
+    for (int i = 0; i < image.width * image.height; ++i) {
+      std::uint8_t& level = image.at(i % image.width, i / image.width);
+      level = static_cast<std::uint8_t>(change(level));
+    }
+  };
   test::fill_image(image, test::Fill::kUniform, 5);
-  census_ref(image, codes);
-  const std::vector<std::uint8_t> before = test::pixels_of(codes);
-  for (int i = 0; i < 400; ++i) image.at(i % 20, i / 20) = 255 - image.at(i % 20, i / 20);
-  census_ref(image, codes);
-  EXPECT_NE(test::pixels_of(codes), before);
+  change_all([](int level) { return level / 2; });
+  const std::vector<std::uint8_t> before = codes_of(eye);
+  change_all([](int level) { return level + 100; });
+  EXPECT_EQ(codes_of(eye), before);
+  change_all([](int level) { return 255 - level; });
+  EXPECT_NE(codes_of(eye), before);
 }
 
-TEST(ComputePlanes, AreTheSmoothedCensusOfTheBlurredImage) {
+TEST(ComputePlanes, FillEveryLevelFromItsOwnGreyImage) {
   const RectifiedRig rig = test::ideal_rig();
-  test::EyeStages eye(rig, 1);
+  test::EyeStages eye(rig, 3, 1);
   test::fill_image(eye.grey(), test::Fill::kUniform, 9);
   eye.prepare(KernelTable());
   Arena arena(4u << 20);
-  const auto blurred = arena.allocate_image<std::uint8_t>(rig.width, rig.height, "blurred");
-  const auto codes = arena.allocate_image<std::uint8_t>(rig.width, rig.height, "codes");
-  const auto planes =
-      arena.allocate_image<std::uint8_t>(rig.width * kPlaneCount, rig.height, "planes");
-  const auto row = arena.allocate<std::uint8_t>((rig.width + 8) * kPlaneCount, "row");
-  blur3_ref(eye.grey(), blurred);
-  census_ref(blurred, codes);
-  bit_planes_ref(codes, make_smoothing_taps(kPlaneSigmaPx), row.data(), planes);
-  EXPECT_EQ(test::pixels_of(eye.codes()), test::pixels_of(codes));
-  EXPECT_EQ(test::pixels_of(eye.pyramid()[0].planes), test::pixels_of(planes));
+  const auto scratch = allocate_plane_scratch(rig, arena);
+  for (int l = 0; l < 3; ++l) {
+    const PyramidLevel& level = eye.pyramid()[l];
+    const auto codes =
+        arena.allocate_image<std::uint8_t>(level.grey.width, level.grey.height, "codes");
+    const auto planes =
+        arena.allocate_image<std::uint8_t>(level.planes.width, level.planes.height, "planes");
+    bit_planes_ref(level.grey, codes, scratch, planes);
+    EXPECT_EQ(test::pixels_of(level.planes), test::pixels_of(planes)) << l;
+    EXPECT_TRUE(l == 2 || test::pixels_of(level.codes) == test::pixels_of(codes)) << l;
+  }
+}
+
+TEST(ComputePlanes, LeaveALevelAloneThatHasNeitherPlanesNorCodes) {
+  const RectifiedRig rig = test::ideal_rig();
+  Arena arena(4u << 20);
+  FramePyramid pyramid = allocate_pyramid(rig, {3, 1, 0}, arena);
+  const auto scratch = allocate_plane_scratch(rig, arena);
+  test::fill_image(pyramid[2].grey, test::Fill::kUniform, 9);
+  const std::vector<std::uint8_t> before = test::pixels_of(pyramid[2].grey);
+  compute_planes(KernelTable(), scratch, pyramid[2]);
+  EXPECT_EQ(test::pixels_of(pyramid[2].grey), before);
 }
 
 }  // namespace

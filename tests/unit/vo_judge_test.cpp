@@ -13,7 +13,7 @@ constexpr double kFocalPx = 200.0;
 // Template points 4 m away: f / z = 50 px/m.
 TemplateLevel finest_level() {
   TemplateLevel level;
-  level.count = 800;
+  level.points.count = 800;
   level.mean_inverse_depth_focal = 50.0f;
   return level;
 }

@@ -21,7 +21,7 @@ class SelectPoints : public ::testing::Test {
     stages_.know_disparities(world_, Se3());
   }
   [[nodiscard]] auto select(int level) {
-    return select_points(kernels_, eye_.pyramid()[level], level, stages_.disparity(),
+    return select_points(kernels_, eye_.pyramid()[level], level, stages_.disparity(), 0,
                          stages_.selector());
   }
 
@@ -114,6 +114,51 @@ TEST_F(SelectPoints, GivesDisparitiesInThePixelsOfTheLevel) {
   }
 }
 
+// A disparity map of half the size, whose pixel (x, y) stands for 2×2 of level 0.
+TEST_F(SelectPoints, TakesDisparitiesOfAMatchedCoarserLevelToEveryOther) {
+  Arena arena(1u << 20);
+  const auto coarse = arena.allocate_image<float>(rig_.width / 2, rig_.height / 2, "disparity");
+  const auto coarse_at = [](int x, int y) { return 0.25f + 0.0625f * float(x + 80 * y); };
+  for (int y = 0; y < coarse.height; ++y) {
+    for (int x = 0; x < coarse.width; ++x) {
+      coarse.at(x, y) = x % 5 == 0 ? kNoDisparity : coarse_at(x, y);
+    }
+  }
+  const auto select_on = [&](int level) {
+    return select_points(kernels_, eye_.pyramid()[level], level, coarse, 1, stages_.selector());
+  };
+  for (const PointSelector::Candidate& c : select_on(0)) {
+    ASSERT_NE(c.x / 2 % 5, 0);
+    ASSERT_EQ(c.disparity_px, 2.0f * coarse_at(c.x / 2, c.y / 2));
+  }
+  for (const PointSelector::Candidate& c : select_on(1)) {
+    ASSERT_NE(c.x % 5, 0);
+    ASSERT_EQ(c.disparity_px, coarse_at(c.x, c.y));
+  }
+  for (const PointSelector::Candidate& c : select_on(2)) {
+    // The upper median of the known of 2×2: between the least and the greatest.
+    ASSERT_GE(2.0f * c.disparity_px, coarse_at(2 * c.x, 2 * c.y));
+    ASSERT_LE(2.0f * c.disparity_px, coarse_at(2 * c.x + 1, 2 * c.y + 1));
+  }
+  EXPECT_GT(select_on(0).size(), std::size_t{kPoints} / 2);  // or nothing was compared
+}
+
+TEST_F(SelectPoints, StaysInsideADisparityMapOfAnOddSizeHalved) {
+  RectifiedRig odd = rig_;
+  odd.width = 161;
+  odd.height = 121;
+  test::EyeStages eye(odd, 2);
+  world_.render(odd, Se3(), eye.grey());
+  eye.prepare(kernels_);
+  Arena arena(1u << 20);
+  const auto coarse = arena.allocate_image<float>(80, 60, "disparity");
+  for (int i = 0; i < 80 * 60; ++i) coarse.at(i % 80, i / 80) = 3.0f;
+  const PointSelector selector = allocate_point_selector(odd, kPoints, arena);
+  const auto chosen = select_points(kernels_, eye.pyramid()[0], 0, coarse, 1, selector);
+  EXPECT_GE(chosen.size(), std::size_t{kPoints} * 3 / 4);
+  for (const PointSelector::Candidate& c : chosen) ASSERT_EQ(c.disparity_px, 6.0f);
+}
+
 TEST_F(SelectPoints, FindsNothingInAFlatImage) {
   test::fill_image(eye_.grey(), test::Fill::kConstant, 90);
   eye_.prepare(kernels_);
@@ -129,7 +174,7 @@ TEST_F(SelectPoints, GivesTheSamePointsWithEveryKernel) {
     eye_.prepare(kernels);
     std::vector<decltype(key_of({}))> points;
     for (const auto& c :
-         select_points(kernels, eye_.pyramid()[0], 0, stages_.disparity(), stages_.selector())) {
+         select_points(kernels, eye_.pyramid()[0], 0, stages_.disparity(), 0, stages_.selector())) {
       points.push_back(key_of(c));
     }
     if (expected.empty()) expected = points;
@@ -142,36 +187,37 @@ TEST_F(SelectPoints, AreBuiltIntoATemplateOfReferenceGradientsAndGram) {
   const auto chosen = select(1);
   TemplateLevel& out = stages_.keyframe().levels[1];
   build_template_level(chosen, level, rig_.baseline_m, out);
-  ASSERT_EQ(static_cast<std::size_t>(out.count), chosen.size());
+  const TemplatePoints& points = out.points;
+  ASSERT_EQ(static_cast<std::size_t>(points.count), chosen.size());
   double sum = 0.0;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const PointSelector::Candidate& c = chosen[i];
-    const TemplatePoint& point = out.points()[i];
-    ASSERT_NEAR(point.x, c.x - level.cx, 1e-5);
-    ASSERT_NEAR(point.y, c.y - level.cy, 1e-5);
-    ASSERT_NEAR(point.inverse_depth_focal, c.disparity_px / rig_.baseline_m, 1e-4);
-    sum += point.inverse_depth_focal;
+  for (int i = 0; i < points.count; ++i) {
+    const PointSelector::Candidate& c = chosen[static_cast<std::size_t>(i)];
+    const PlanePatch& patch = points.patches[i];
+    ASSERT_NEAR(points.x[i], c.x - level.cx, 1e-5);
+    ASSERT_NEAR(points.y[i], c.y - level.cy, 1e-5);
+    ASSERT_NEAR(points.inverse_depth_focal[i], c.disparity_px / rig_.baseline_m, 1e-4);
+    sum += points.inverse_depth_focal[i];
     Eigen::Matrix2d S = Eigen::Matrix2d::Zero();
     for (int k = 0; k < kPlaneCount; ++k) {
       const auto phi = [&](int x, int y) { return 1.0 * level.planes.at(x * kPlaneCount + k, y); };
       const Eigen::Vector2d gradient(0.5 * (phi(c.x + 1, c.y) - phi(c.x - 1, c.y)),
                                      0.5 * (phi(c.x, c.y + 1) - phi(c.x, c.y - 1)));
-      ASSERT_EQ(point.reference[k], phi(c.x, c.y));
-      ASSERT_EQ(point.gx2[k], 2.0 * gradient.x());
-      ASSERT_EQ(point.gy2[k], 2.0 * gradient.y());
+      ASSERT_EQ(patch.reference[k], phi(c.x, c.y));
+      ASSERT_EQ(patch.gx2[k], 2.0 * gradient.x());
+      ASSERT_EQ(patch.gy2[k], 2.0 * gradient.y());
       S += gradient * gradient.transpose();
     }
-    ASSERT_EQ(point.Sxx, S(0, 0));  // quarters of whole numbers: exact
-    ASSERT_EQ(point.Sxy, S(0, 1));
-    ASSERT_EQ(point.Syy, S(1, 1));
+    ASSERT_EQ(points.Sxx[i], S(0, 0));  // quarters of whole numbers: exact
+    ASSERT_EQ(points.Sxy[i], S(0, 1));
+    ASSERT_EQ(points.Syy[i], S(1, 1));
   }
-  EXPECT_NEAR(out.mean_inverse_depth_focal, sum / out.count, 1e-4);
+  EXPECT_NEAR(out.mean_inverse_depth_focal, sum / points.count, 1e-4);
 }
 
 TEST_F(SelectPoints, BuildAnEmptyTemplateOfNoPoints) {
   TemplateLevel& out = stages_.keyframe().levels[0];
   build_template_level({}, eye_.pyramid()[0], rig_.baseline_m, out);
-  EXPECT_EQ(out.count, 0);
+  EXPECT_EQ(out.points.count, 0);
   EXPECT_EQ(out.mean_inverse_depth_focal, 0.0f);
   EXPECT_TRUE(stages_.keyframe().is_empty());
 }
