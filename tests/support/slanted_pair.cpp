@@ -23,8 +23,9 @@ SlantedPair::SlantedPair(double d0_px, double slope, int matched_level)
       rig_(rig_for(matched_level)),
       left_(rig_, matched_level + 1, matched_level),
       right_(rig_, matched_level + 1, matched_level),
-      matcher_(allocate_stereo_matcher(rig_.width >> matched_level, rig_.height >> matched_level,
-                                       arena_)) {
+      matcher_(allocate_stereo_matcher(rig_.width >> matched_level, arena_)),
+      disparity_(arena_.allocate_image<float>(rig_.width >> matched_level,
+                                              rig_.height >> matched_level, "disparity")) {
   // Fine enough for level 0, and coarse enough to be seen on the matched one.
   const double size = matched_level == 0 ? 1.0 : 1.5;
   const SmoothTexture texture(
@@ -34,12 +35,12 @@ SlantedPair::SlantedPair(double d0_px, double slope, int matched_level)
         [&](int x, int y) { return texture.mean((x + d0_px) / (1.0 - slope), y, 1.0); });
   left_.prepare(kernels_);
   right_.prepare(kernels_);
-  known_share_ =
-      match_stereo(kernels_, left_.codes(matched_level), right_.codes(matched_level), matcher_);
+  known_share_ = match_stereo(kernels_, left_.codes(matched_level), right_.codes(matched_level),
+                              matcher_, disparity_);
 }
 
 PointSelector::Candidate SlantedPair::candidate(int x, int y) const {
-  const float d = matcher_.disparity.at(x >> matched_level_, y >> matched_level_);
+  const float d = disparity_.at(x >> matched_level_, y >> matched_level_);
   return {static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), 0,
           d < 0.0f ? kNoDisparity : d * static_cast<float>(1 << matched_level_)};
 }

@@ -18,7 +18,7 @@ class SlantedPair {
   [[nodiscard]] double truth(int x) const { return d0_px_ + slope_ * x; }
   [[nodiscard]] double known_share() const { return known_share_; }
   // Of the matched level, in its pixels.
-  [[nodiscard]] ImageView<const float> disparity() const { return matcher_.disparity; }
+  [[nodiscard]] ImageView<const float> disparity() const { return disparity_; }
   [[nodiscard]] const PyramidLevel& left() const { return left_.pyramid()[0]; }
   [[nodiscard]] const PyramidLevel& right() const { return right_.pyramid()[0]; }
 
@@ -35,6 +35,7 @@ class SlantedPair {
   EyeStages right_;
   Arena arena_{8u << 20};
   StereoMatcher matcher_;
+  ImageView<float> disparity_;
   double known_share_ = 0.0;
 };
 

@@ -44,12 +44,17 @@ class TemplateStages {
       : rig_(rig),
         arena_(std::size_t(rig.width + 64) * (rig.height + 2) * 8 +
                std::size_t(points_per_level) * (32 + 64 * level_count) + (1u << 20)),
-        disparity_(arena_.allocate_image<float>(rig.width, rig.height, "disparity")),
+        disparities_(allocate_disparities(rig.width, rig.height, level_count, 0, arena_)),
         selector_(allocate_point_selector(rig, points_per_level, arena_)),
         keyframe_(allocate_template(level_count, points_per_level, arena_)),
         residuals_(allocate_residuals(points_per_level, arena_)) {}
 
-  [[nodiscard]] ImageView<float> disparity() { return disparity_; }
+  // Of level 0; what is known of the other levels follows from it.
+  [[nodiscard]] ImageView<float> disparity() { return disparities_.levels[0]; }
+  [[nodiscard]] DisparityPyramid::At disparities_at(int level) {
+    reduce_disparities(disparities_);
+    return disparities_.at_level(level);
+  }
   [[nodiscard]] const PointSelector& selector() const { return selector_; }
   [[nodiscard]] const PointResiduals& residuals() const { return residuals_; }
   [[nodiscard]] KeyframeTemplate& keyframe() { return keyframe_; }
@@ -58,22 +63,22 @@ class TemplateStages {
   void know_disparities(const PlaneWorld& world, const Se3& T_world_camera) {
     for (int y = 0; y < rig_.height; ++y) {
       for (int x = 0; x < rig_.width; ++x) {
-        disparity_.at(x, y) = static_cast<float>(rig_.focal_px * rig_.baseline_m /
-                                                 world.depth_m(rig_, T_world_camera, x, y));
+        disparity().at(x, y) = static_cast<float>(rig_.focal_px * rig_.baseline_m /
+                                                  world.depth_m(rig_, T_world_camera, x, y));
       }
     }
   }
   void build(const KernelTable& kernels, const FramePyramid& pyramid) {
     for (int l = 0; l < static_cast<int>(pyramid.size()); ++l) {
-      const auto chosen = select_points(kernels, pyramid[l], l, disparity_, 0, selector_);
-      build_template_level(chosen, pyramid[l], rig_.baseline_m, keyframe_.levels[l]);
+      const auto chosen = select_points(kernels, pyramid[l], disparities_at(l), selector_);
+      build_template_level(kernels, chosen, pyramid[l], rig_.baseline_m, keyframe_.levels[l]);
     }
   }
 
  private:
   RectifiedRig rig_;
   Arena arena_;
-  ImageView<float> disparity_;
+  DisparityPyramid disparities_;
   PointSelector selector_;
   KeyframeTemplate keyframe_;
   PointResiduals residuals_;

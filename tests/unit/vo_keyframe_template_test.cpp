@@ -21,7 +21,7 @@ class SelectPoints : public ::testing::Test {
     stages_.know_disparities(world_, Se3());
   }
   [[nodiscard]] auto select(int level) {
-    return select_points(kernels_, eye_.pyramid()[level], level, stages_.disparity(), 0,
+    return select_points(kernels_, eye_.pyramid()[level], stages_.disparities_at(level),
                          stages_.selector());
   }
 
@@ -94,7 +94,7 @@ TEST_F(SelectPoints, TakesTheMostSalientOfItsSurroundings) {
   for (const std::uint16_t value : test::pixels_of(saliency)) sum_all += value;
   double sum_chosen = 0.0;
   for (const PointSelector::Candidate& c : chosen) {
-    ASSERT_EQ(c.saliency, saliency.at(c.x, c.y));
+    ASSERT_EQ(c.saliency, saliency.at(c.x, c.y) / 2 * 2);  // kept in steps of two
     sum_chosen += c.saliency;
   }
   const double mean_all = sum_all / (rig_.width * rig_.height);
@@ -117,15 +117,18 @@ TEST_F(SelectPoints, GivesDisparitiesInThePixelsOfTheLevel) {
 // A disparity map of half the size, whose pixel (x, y) stands for 2×2 of level 0.
 TEST_F(SelectPoints, TakesDisparitiesOfAMatchedCoarserLevelToEveryOther) {
   Arena arena(1u << 20);
-  const auto coarse = arena.allocate_image<float>(rig_.width / 2, rig_.height / 2, "disparity");
+  DisparityPyramid disparities = allocate_disparities(rig_.width, rig_.height, 3, 1, arena);
+  const ImageView<float> coarse = disparities.levels[0];
   const auto coarse_at = [](int x, int y) { return 0.25f + 0.0625f * float(x + 80 * y); };
   for (int y = 0; y < coarse.height; ++y) {
     for (int x = 0; x < coarse.width; ++x) {
       coarse.at(x, y) = x % 5 == 0 ? kNoDisparity : coarse_at(x, y);
     }
   }
+  reduce_disparities(disparities);
   const auto select_on = [&](int level) {
-    return select_points(kernels_, eye_.pyramid()[level], level, coarse, 1, stages_.selector());
+    return select_points(kernels_, eye_.pyramid()[level], disparities.at_level(level),
+                         stages_.selector());
   };
   for (const PointSelector::Candidate& c : select_on(0)) {
     ASSERT_NE(c.x / 2 % 5, 0);
@@ -136,7 +139,7 @@ TEST_F(SelectPoints, TakesDisparitiesOfAMatchedCoarserLevelToEveryOther) {
     ASSERT_EQ(c.disparity_px, coarse_at(c.x, c.y));
   }
   for (const PointSelector::Candidate& c : select_on(2)) {
-    // The upper median of the known of 2×2: between the least and the greatest.
+    // The median of the known of 2×2: between the least and the greatest.
     ASSERT_GE(2.0f * c.disparity_px, coarse_at(2 * c.x, 2 * c.y));
     ASSERT_LE(2.0f * c.disparity_px, coarse_at(2 * c.x + 1, 2 * c.y + 1));
   }
@@ -151,10 +154,11 @@ TEST_F(SelectPoints, StaysInsideADisparityMapOfAnOddSizeHalved) {
   world_.render(odd, Se3(), eye.grey());
   eye.prepare(kernels_);
   Arena arena(1u << 20);
-  const auto coarse = arena.allocate_image<float>(80, 60, "disparity");
+  const DisparityPyramid disparities = allocate_disparities(161, 121, 2, 1, arena);
+  const ImageView<float> coarse = disparities.levels[0];
   for (int i = 0; i < 80 * 60; ++i) coarse.at(i % 80, i / 80) = 3.0f;
   const PointSelector selector = allocate_point_selector(odd, kPoints, arena);
-  const auto chosen = select_points(kernels_, eye.pyramid()[0], 0, coarse, 1, selector);
+  const auto chosen = select_points(kernels_, eye.pyramid()[0], disparities.at_level(0), selector);
   EXPECT_GE(chosen.size(), std::size_t{kPoints} * 3 / 4);
   for (const PointSelector::Candidate& c : chosen) ASSERT_EQ(c.disparity_px, 6.0f);
 }
@@ -174,7 +178,7 @@ TEST_F(SelectPoints, GivesTheSamePointsWithEveryKernel) {
     eye_.prepare(kernels);
     std::vector<decltype(key_of({}))> points;
     for (const auto& c :
-         select_points(kernels, eye_.pyramid()[0], 0, stages_.disparity(), 0, stages_.selector())) {
+         select_points(kernels, eye_.pyramid()[0], stages_.disparities_at(0), stages_.selector())) {
       points.push_back(key_of(c));
     }
     if (expected.empty()) expected = points;
@@ -186,7 +190,7 @@ TEST_F(SelectPoints, AreBuiltIntoATemplateOfReferenceGradientsAndGram) {
   const PyramidLevel& level = eye_.pyramid()[1];
   const auto chosen = select(1);
   TemplateLevel& out = stages_.keyframe().levels[1];
-  build_template_level(chosen, level, rig_.baseline_m, out);
+  build_template_level(kernels_, chosen, level, rig_.baseline_m, out);
   const TemplatePoints& points = out.points;
   ASSERT_EQ(static_cast<std::size_t>(points.count), chosen.size());
   double sum = 0.0;
@@ -216,7 +220,7 @@ TEST_F(SelectPoints, AreBuiltIntoATemplateOfReferenceGradientsAndGram) {
 
 TEST_F(SelectPoints, BuildAnEmptyTemplateOfNoPoints) {
   TemplateLevel& out = stages_.keyframe().levels[0];
-  build_template_level({}, eye_.pyramid()[0], rig_.baseline_m, out);
+  build_template_level(kernels_, {}, eye_.pyramid()[0], rig_.baseline_m, out);
   EXPECT_EQ(out.points.count, 0);
   EXPECT_EQ(out.mean_inverse_depth_focal, 0.0f);
   EXPECT_TRUE(stages_.keyframe().is_empty());

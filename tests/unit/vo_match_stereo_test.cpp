@@ -53,7 +53,7 @@ class MatchStereo : public ::testing::Test {
   double match(const KernelTable& kernels = {}) {
     left_.prepare(kernels);
     right_.prepare(kernels);
-    return match_stereo(kernels, left_.codes(), right_.codes(), matcher_);
+    return match_stereo(kernels, left_.codes(), right_.codes(), matcher_, disparity_);
   }
   // The right eye sees noise `shift_px` further to the left; or, negative, to the right.
   void show_shifted_noise(int shift_px) {
@@ -69,7 +69,8 @@ class MatchStereo : public ::testing::Test {
   test::EyeStages left_{rig_, 1};
   test::EyeStages right_{rig_, 1};
   Arena arena_{8u << 20};
-  StereoMatcher matcher_ = allocate_stereo_matcher(rig_.width, rig_.height, arena_);
+  StereoMatcher matcher_ = allocate_stereo_matcher(rig_.width, arena_);
+  ImageView<float> disparity_ = arena_.allocate_image<float>(rig_.width, rig_.height, "disparity");
 };
 
 TEST_F(MatchStereo, GivesTheSameDisparitiesWithEveryKernel) {
@@ -78,7 +79,7 @@ TEST_F(MatchStereo, GivesTheSameDisparitiesWithEveryKernel) {
   double expected_cost = 0.0;
   for (const KernelTable& kernels : test::available_tables()) {
     (void)match(kernels);
-    const std::vector<float> disparities = test::pixels_of(matcher_.disparity);
+    const std::vector<float> disparities = test::pixels_of(disparity_);
     if (expected.empty()) {
       expected = disparities;
       expected_cost = matcher_.mean_cost;
@@ -98,7 +99,7 @@ TEST_F(MatchStereo, SaysNothingOfTheLargestDisparityAsALargerOneMayBeMeant) {
   show_shifted_noise(kDisparities - 1);
   (void)match();
   int known = 0;
-  for (const float d : test::pixels_of(matcher_.disparity)) known += d > 30.5f ? 1 : 0;
+  for (const float d : test::pixels_of(disparity_)) known += d > 30.5f ? 1 : 0;
   EXPECT_EQ(known, 0);
 }
 
@@ -106,8 +107,9 @@ TEST_F(MatchStereo, NoticesSwappedEyesAndOnlyThose) {
   show_shifted_noise(9);
   left_.prepare(KernelTable());
   right_.prepare(KernelTable());
-  EXPECT_FALSE(are_eyes_swapped(KernelTable(), left_.codes(), right_.codes(), matcher_));
-  EXPECT_TRUE(are_eyes_swapped(KernelTable(), right_.codes(), left_.codes(), matcher_));
+  EXPECT_FALSE(
+      are_eyes_swapped(KernelTable(), left_.codes(), right_.codes(), matcher_, disparity_));
+  EXPECT_TRUE(are_eyes_swapped(KernelTable(), right_.codes(), left_.codes(), matcher_, disparity_));
 }
 
 TEST(StereoLevel, IsTheFinestAtMostKMaxStereoWidthWide) {

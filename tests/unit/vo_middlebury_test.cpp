@@ -75,7 +75,8 @@ class AloePair {
     reduce(right, k, right_.grey());
     left_.prepare(kernels_);
     right_.prepare(kernels_);
-    (void)match_stereo(kernels_, left_.codes(level_), right_.codes(level_), matcher_);
+    (void)match_stereo(kernels_, left_.codes(level_), right_.codes(level_), matcher_,
+                       disparities_.levels[0]);
   }
 
   // Of all pixels.
@@ -85,7 +86,7 @@ class AloePair {
       for (int x = 0; x < rig_.width; ++x) {
         if (!is_in_reach(x, y)) continue;
         ++errors.with_truth;
-        const float d = matcher_.disparity.at(x, y);
+        const float d = disparities_.levels[0].at(x, y);
         if (d >= 0.0f) count({std::uint16_t(x), std::uint16_t(y), 0, d}, errors);
       }
     }
@@ -96,7 +97,7 @@ class AloePair {
   [[nodiscard]] StereoQuality measure_points() {
     const PointSelector selector = allocate_point_selector(rig_, 1000, arena_);
     const auto chosen =
-        select_points(kernels_, left_.pyramid()[0], 0, matcher_.disparity, level_, selector);
+        select_points(kernels_, left_.pyramid()[0], disparities_.at_level(0), selector);
     search_disparities(kernels_, left_.pyramid()[0], right_.pyramid()[0], level_, chosen);
     StereoErrors errors;
     for (const PointSelector::Candidate& point : chosen) {
@@ -146,8 +147,9 @@ class AloePair {
   test::EyeStages left_{rig_, level_ + 1, level_};
   test::EyeStages right_{rig_, level_ + 1, level_};
   Arena arena_{32u << 20};
-  StereoMatcher matcher_ =
-      allocate_stereo_matcher(rig_.width >> level_, rig_.height >> level_, arena_);
+  StereoMatcher matcher_ = allocate_stereo_matcher(rig_.width >> level_, arena_);
+  DisparityPyramid disparities_ =
+      allocate_disparities(rig_.width, rig_.height, level_ + 1, level_, arena_);
 };
 
 class Aloe : public ::testing::Test {
