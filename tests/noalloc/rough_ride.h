@@ -25,11 +25,11 @@ struct RideCounts {
 class RoughRide {
  public:
   static constexpr int kFrames = 1000;
-  static constexpr int kWidth_px = 160;
+  static constexpr int kWidth_px = 96;
 
   RoughRide()
-      : here_(synthetic_run("corridor,frames=24,width=160,seed=2")),
-        elsewhere_(synthetic_run("quarry,frames=24,width=160,seed=3")),
+      : here_(synthetic_run("corridor,frames=24,width=96,seed=2")),
+        elsewhere_(synthetic_run("quarry,frames=24,width=96,seed=3")),
         dark_(flat_frame(here_.frames[0], 0)) {
     for (unsigned seed = 0; seed < 4; ++seed) {
       noise_.push_back(noise_frame(here_.frames[0], seed));

@@ -19,9 +19,10 @@ namespace {
 using test::RideCounts;
 using test::RoughRide;
 
+// Few points, so that a build without optimisation is not all arithmetic.
 std::unique_ptr<Odometry> make_odometry(const RoughRide& ride, const KernelTable& kernels) {
-  auto odometry = Odometry::create({.width_px = RoughRide::kWidth_px}, ride.rig(), kernels,
-                                   read_monotonic_clock);
+  auto odometry = Odometry::create({.width_px = RoughRide::kWidth_px, .points_per_level = 300},
+                                   ride.rig(), kernels, read_monotonic_clock);
   EXPECT_TRUE(odometry) << odometry.error().message;
   return std::move(*odometry);
 }
