@@ -21,7 +21,7 @@ using test::RoughRide;
 
 // Few points, so that a build without optimisation is not all arithmetic.
 std::unique_ptr<Odometry> make_odometry(const RoughRide& ride, const KernelTable& kernels) {
-  auto odometry = Odometry::create({.width_px = RoughRide::kWidth_px, .points_per_level = 300},
+  auto odometry = Odometry::create({.width_px = RoughRide::kWidth_px, .points_per_level = 150},
                                    ride.rig(), kernels, read_monotonic_clock);
   EXPECT_TRUE(odometry) << odometry.error().message;
   return std::move(*odometry);
