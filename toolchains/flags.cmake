@@ -39,6 +39,14 @@ if(DARKLING_SANITIZE)
   target_link_options(darkling_flags INTERFACE -fsanitize=${DARKLING_SANITIZE})
 endif()
 
+# For the layers that run every frame: no function may take more stack than this. The largest
+# today are functions of the start, with 5 KiB.
+add_library(darkling_bounded_stack INTERFACE)
+if(NOT DARKLING_SANITIZE)
+  target_compile_options(darkling_bounded_stack INTERFACE
+    $<$<CXX_COMPILER_ID:GNU>:-Wstack-usage=8192>)
+endif()
+
 # darkling_layer(NAME [HEADERS_TO_PRECOMPILE...]): the static library darkling_NAME of every .cpp in
 # this folder.
 function(darkling_layer name)

@@ -9,6 +9,7 @@
 #include "io/run_report.h"
 #include "platform/clocks.h"
 #include "platform/cpu_features.h"
+#include "platform/heap_probe.h"
 #include "platform/process_memory.h"
 #include "platform/signals.h"
 #include "vo/odometry.h"
@@ -28,6 +29,7 @@ struct Run {
   std::string truth_name;
   RunOutputs outputs;
   StatisticsRecorder statistics;
+  std::optional<std::int64_t> heap_calls;  // of the odometry since it was created
 };
 
 struct Truth {
@@ -69,19 +71,24 @@ Result<Run> prepare(const ReplayOptions& options) {
              .truth = std::move(truth->trajectory),
              .truth_name = std::move(truth->name),
              .outputs = std::move(*outputs),
-             .statistics = {}};
+             .statistics = {},
+             .heap_calls = count_heap_calls() ? std::optional<std::int64_t>(0) : std::nullopt};
 }
 
-// One input frame: tracked and timed when there is a pair, else skipped.
+// One input frame: tracked and timed when there is a pair, else skipped; heap calls are counted.
 Estimate follow(Run& run, const WaitResult& next) {
-  if (next.status == WaitStatus::kBadFrame) {
-    const Estimate estimate = run.odometry->skip(next.sequence, next.stamp);
-    run.statistics.add_skipped(estimate);
-    return estimate;
-  }
+  const bool is_bad = next.status == WaitStatus::kBadFrame;
+  const auto heap_calls_before = count_heap_calls();
   const MonotonicTime started_at = read_monotonic_clock();
-  const Estimate estimate = run.odometry->track(next.lease.frame());
-  run.statistics.add_tracked(estimate, read_monotonic_clock() - started_at);
+  const Estimate estimate = is_bad ? run.odometry->skip(next.sequence, next.stamp)
+                                   : run.odometry->track(next.lease.frame());
+  const Duration wall_time = read_monotonic_clock() - started_at;
+  if (run.heap_calls) *run.heap_calls += *count_heap_calls() - *heap_calls_before;
+  if (is_bad) {
+    run.statistics.add_skipped(estimate);
+  } else {
+    run.statistics.add_tracked(estimate, wall_time);
+  }
   return estimate;
 }
 
@@ -137,7 +144,7 @@ RunReport report_run(Run& run, const ReplayOptions& options) {
           .width_px = rig.width,
           .height_px = rig.height,
           .arena_bytes = static_cast<std::int64_t>(run.odometry->arena_bytes()),
-          .heap_calls_after_start = std::nullopt,
+          .heap_calls_after_start = run.heap_calls,
           .peak_rss_bytes = read_peak_rss_bytes(),
           .trajectory_sha256 = run.outputs.finish_sha256(),
           .outputs = run.outputs.describe()};

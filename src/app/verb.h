@@ -16,6 +16,7 @@ using VerbAction = std::function<Result<int>()>;
 
 // Each adds the options and the help of one verb to its command and returns what is to be done.
 [[nodiscard]] VerbAction declare_replay(CLI::App& command);
+[[nodiscard]] VerbAction declare_check(CLI::App& command);
 [[nodiscard]] VerbAction declare_eval(CLI::App& command);
 [[nodiscard]] VerbAction declare_render(CLI::App& command);
 

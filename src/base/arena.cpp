@@ -30,7 +30,7 @@ void* Arena::allocate_bytes(std::size_t bytes, std::size_t alignment, const char
   CHECK(start <= capacity_bytes_ && bytes <= capacity_bytes_ - start, "the arena is full");
   entries_[entry_count_++] = {name, bytes};
   used_bytes_ = start + bytes;
-  return block_ + start;
+  return block_ == nullptr ? nullptr : block_ + start;
 }
 
 }  // namespace darkling

@@ -18,25 +18,30 @@ namespace darkling {
 // Thread: one thread until sealed; the memory handed out has its own rules.
 class Arena {
  public:
+  // An arena without memory: it keeps account of what it is asked for and hands out views of
+  // nothing, in which nothing is constructed. What it has counted at the end, used_bytes(), is the
+  // capacity of the arena that the same requests fill to the last byte.
+  [[nodiscard]] static Arena measuring() { return {}; }
   // Reserves `capacity_bytes`, zeroed and touched, aligned to a cache line.
   explicit Arena(std::size_t capacity_bytes);
   ~Arena();
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;
 
-  // An array of `count` value-initialised elements, aligned to at least a cache line.
-  // `name` (static storage) labels it in the memory map.
+  // An array of `count` value-initialised elements, aligned to at least a cache line; empty when
+  // the arena only measures. `name` (static storage) labels it in the memory map.
   template <class T>
   [[nodiscard]] std::span<T> allocate(std::size_t count, const char* name) {
     static_assert(std::is_trivially_destructible_v<T>, "the arena never runs destructors");
     CHECK(count <= std::numeric_limits<std::size_t>::max() / sizeof(T), "a size that wraps round");
     T* first = static_cast<T*>(allocate_bytes(count * sizeof(T), alignof(T), name));
+    if (first == nullptr) return {};
     for (std::size_t i = 0; i < count; ++i) new (first + i) T();
     return {first, count};
   }
 
   // An image whose rows may be read up to 64 bytes past their end, and start on cache lines if the
-  // size of a pixel divides one.
+  // size of a pixel divides one. When the arena only measures it has its size, but no pixels.
   template <class T>
   [[nodiscard]] ImageView<T> allocate_image(int width, int height, const char* name) {
     CHECK(width > 0 && height > 0, "an image has pixels");
@@ -59,11 +64,13 @@ class Arena {
   [[nodiscard]] std::span<const Entry> entries() const { return {entries_, entry_count_}; }
 
  private:
+  Arena() = default;
+  // @return null when the arena only measures.
   [[nodiscard]] void* allocate_bytes(std::size_t bytes, std::size_t alignment, const char* name);
 
   static constexpr std::size_t kMaxEntries = 256;
-  std::byte* block_ = nullptr;
-  std::size_t capacity_bytes_ = 0;
+  std::byte* block_ = nullptr;  // null: measures
+  std::size_t capacity_bytes_ = std::numeric_limits<std::size_t>::max();
   std::size_t used_bytes_ = 0;
   bool is_sealed_ = false;
   Entry entries_[kMaxEntries] = {};

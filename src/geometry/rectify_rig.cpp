@@ -75,6 +75,11 @@ Result<void> choose_intrinsics(const StereoRig& rig, RectifiedRig& rectified) {
 
 }  // namespace
 
+int thumbnail_height(const Camera& source, int width_px) {
+  return static_cast<int>(
+      std::lround(static_cast<double>(width_px) * source.height / source.width));
+}
+
 Result<RectifiedRig> rectify_rig(const StereoRig& rig, int width_px) {
   if (const Result<void> checked = check_rig(rig); !checked) return tl::unexpected(checked.error());
   if (width_px != 0 && (width_px < kMinWidth_px || width_px > rig.left.width)) {
@@ -85,8 +90,7 @@ Result<RectifiedRig> rectify_rig(const StereoRig& rig, int width_px) {
   }
   RectifiedRig rectified;
   rectified.width = width_px == 0 ? rig.left.width : width_px;
-  rectified.height = static_cast<int>(
-      std::lround(static_cast<double>(rectified.width) * rig.left.height / rig.left.width));
+  rectified.height = thumbnail_height(rig.left, rectified.width);
   if (rectified.height < kMinHeight_px) {
     return failure(ExitCode::kConfiguration,
                    "a thumbnail " + std::to_string(rectified.width) + " px wide is " +

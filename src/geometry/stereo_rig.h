@@ -38,6 +38,9 @@ struct RectifiedRig {
 // @return kConfiguration with what was found and what is allowed.
 [[nodiscard]] Result<void> check_rig(const StereoRig& rig);
 
+// Of a thumbnail that keeps the aspect ratio of `source`, px.
+[[nodiscard]] int thumbnail_height(const Camera& source, int width_px);
+
 // Chooses the rectified pair: optical axes turned the least that makes rows match, field of view
 // the largest whose every pixel is seen by both cameras (at most 100° across). A pair that is
 // rectified already keeps its geometry, scaled; as heights are rounded to whole pixels, its last

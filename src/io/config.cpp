@@ -31,6 +31,10 @@ std::string describe_range(const ConfigKey& key) {
   return range;
 }
 
+std::string describe_limits(const ConfigKey& key) {
+  return key.limits.empty() ? "" : " (" + std::string(key.limits) + ")";
+}
+
 // What one key of `config` is, as the file would say it.
 std::string value_text(const OdometryConfig& config, const ConfigKey& key) {
   if (const auto* field = std::get_if<bool OdometryConfig::*>(&key.field)) {
@@ -90,7 +94,8 @@ class Setter {
     }
     if (!set_value(config_, *key, value)) {
       return failure(code_, where + "key '" + std::string(name) + "': found '" +
-                                std::string(value) + "', allowed is " + describe_range(*key));
+                                std::string(value) + "', allowed is " + describe_range(*key) +
+                                describe_limits(*key));
     }
     return {};
   }

@@ -20,8 +20,9 @@ struct ConfigKey {
   double least;
   double most;
   std::variant<int OdometryConfig::*, double OdometryConfig::*, bool OdometryConfig::*> field;
-  std::string_view about;    // one sentence
-  bool may_be_zero = false;  // besides the range: 0 has a meaning of its own
+  std::string_view about;        // one sentence
+  bool may_be_zero = false;      // besides the range: 0 has a meaning of its own
+  std::string_view limits = "";  // that the range is made of, by their names in vo/limits.h
 };
 
 // A key given on the command line.

@@ -10,13 +10,14 @@ namespace {
 
 using C = OdometryConfig;
 
-// name, unit, least, most, field, what it is, whether 0 is allowed besides.
+// name, unit, least, most, field, what it is, whether 0 is allowed besides, limits' names.
 constexpr std::array kKeys = std::to_array<ConfigKey>({
     {"width_px", "px", kMinWidth, kMaxWidth, &C::width_px,
      "Width of the thumbnail that is tracked; its height follows. 0 is the source's width.",
-     /*may_be_zero=*/true},
+     /*may_be_zero=*/true, "kMinWidth, kMaxWidth"},
     {"points_per_level", "", kMinPointsPerLevel, kMaxPointsPerLevel, &C::points_per_level,
-     "Most points the template holds on each level of the pyramid; bounds the time of a frame."},
+     "Most points the template holds on each level of the pyramid; bounds the time of a frame.",
+     /*may_be_zero=*/false, "kMinPointsPerLevel, kMaxPointsPerLevel"},
 });
 
 }  // namespace

@@ -32,7 +32,7 @@ struct RunReport {
   int width_px = 0;
   int height_px = 0;
   std::int64_t arena_bytes = 0;
-  std::optional<std::int64_t> heap_calls_after_start;  // nothing while nobody counts them
+  std::optional<std::int64_t> heap_calls_after_start;  // by the odometry; nothing where not counted
   std::optional<std::int64_t> peak_rss_bytes;
   std::string trajectory_sha256;     // over the KITTI rows of the whole run
   std::vector<std::string> outputs;  // files written, with what they are: "trajectory  a.txt (tum)"

@@ -57,6 +57,10 @@ std::string time_row(const RunReport& report) {
 std::string memory_row(const RunReport& report) {
   std::string content =
       text("%.1f MiB fixed at start", static_cast<double>(report.arena_bytes) / kMiB);
+  if (report.heap_calls_after_start) {
+    content +=
+        text(", %lld heap calls after", static_cast<long long>(*report.heap_calls_after_start));
+  }
   if (report.peak_rss_bytes) {
     content += text("; process peak %.0f MiB", static_cast<double>(*report.peak_rss_bytes) / kMiB);
   }

@@ -144,10 +144,10 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
 }  // namespace
 
 PointResiduals allocate_residuals(int points_per_level, Arena& arena) {
-  const auto array = [&](const char* name) {
-    return arena.allocate<float>(round_up_to_lanes(points_per_level), name).data();
+  const auto array = [&] {
+    return arena.allocate<float>(round_up_to_lanes(points_per_level), "point residuals").data();
   };
-  return {array("residuals bx"), array("residuals by"), array("residuals squares")};
+  return {array(), array(), array()};
 }
 
 Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyframe,

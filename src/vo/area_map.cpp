@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
+#include "vo/limits.h"
+
 namespace darkling {
 
 namespace {
@@ -66,27 +69,30 @@ double mean_scale(const Camera& camera, const RectifiedRig& rectified,
 
 }  // namespace
 
-Result<AreaMap> build_area_map(const Camera& camera, const RectifiedRig& rectified,
-                               const Matrix3& R_raw_rectified, Arena& arena) {
+AreaMapMemory allocate_area_map(const RectifiedRig& rectified, Arena& arena) {
+  AreaMapMemory memory;
+  memory.weights =
+      arena.allocate<std::uint8_t>(std::size_t{kAreaPhases} * kMaxAreaTaps, "area weights");
+  memory.entries =
+      arena.allocate_image<AreaMapEntry>(rectified.width, rectified.height, "area map");
+  return memory;
+}
+
+Result<AreaMap> fill_area_map(const Camera& camera, const RectifiedRig& rectified,
+                              const Matrix3& R_raw_rectified, const AreaMapMemory& memory) {
   AreaMap map;
   map.box_px = std::max(1.0, mean_scale(camera, rectified, R_raw_rectified));
   map.taps = static_cast<int>(std::ceil(map.box_px)) + 1;
   if (map.taps > kMaxAreaTaps || map.taps > std::min(camera.width, camera.height)) {
     return failure(ExitCode::kConfiguration,
-                   "width " + std::to_string(rectified.width) + " reduces the " +
-                       std::to_string(camera.width) +
-                       " px wide image too much: at most 1 : " + std::to_string(kMaxAreaTaps - 1));
+                   "a reduction of " + number_text(map.box_px) + " from " +
+                       std::to_string(camera.width) + " to " + std::to_string(rectified.width) +
+                       " px is above kMaxReduction = " + std::to_string(kMaxReduction));
   }
-  const std::span<std::uint8_t> weights =
-      arena.allocate<std::uint8_t>(std::size_t{kAreaPhases} * kMaxAreaTaps, "area weights");
   for (int phase = 0; phase < kAreaPhases; ++phase) {
     fill_weights(static_cast<double>(phase) / kAreaPhasesPerPixel, map.box_px, map.taps,
-                 weights.subspan(std::size_t(phase) * kMaxAreaTaps, kMaxAreaTaps));
+                 memory.weights.subspan(std::size_t(phase) * kMaxAreaTaps, kMaxAreaTaps));
   }
-  map.weights = weights.data();
-
-  const ImageView<AreaMapEntry> entries =
-      arena.allocate_image<AreaMapEntry>(rectified.width, rectified.height, "area map");
   for (int v = 0; v < rectified.height; ++v) {
     for (int u = 0; u < rectified.width; ++u) {
       const Vector3 ray((u - rectified.cx) / rectified.focal_px,
@@ -94,10 +100,11 @@ Result<AreaMap> build_area_map(const Camera& camera, const RectifiedRig& rectifi
       const Eigen::Vector2d raw = project(camera, R_raw_rectified * ray);
       const BoxStart x = box_start(raw.x(), map, camera.width);
       const BoxStart y = box_start(raw.y(), map, camera.height);
-      entries.at(u, v) = {x.pixel, y.pixel, x.phase, y.phase};
+      memory.entries.at(u, v) = {x.pixel, y.pixel, x.phase, y.phase};
     }
   }
-  map.entries = entries;
+  map.weights = memory.weights.data();
+  map.entries = memory.entries;
   return map;
 }
 

@@ -6,16 +6,16 @@ namespace darkling {
 namespace {
 
 TemplatePoints allocate_points(int capacity, Arena& arena) {
-  const auto array = [&](const char* name) {
-    return arena.allocate<float>(round_up_to_lanes(capacity), name).data();
+  const auto array = [&] {
+    return arena.allocate<float>(round_up_to_lanes(capacity), "template points").data();
   };
   TemplatePoints points;
-  points.x = array("template x");
-  points.y = array("template y");
-  points.inverse_depth_focal = array("template inverse depths");
-  points.Sxx = array("template Sxx");
-  points.Sxy = array("template Sxy");
-  points.Syy = array("template Syy");
+  points.x = array();
+  points.y = array();
+  points.inverse_depth_focal = array();
+  points.Sxx = array();
+  points.Sxy = array();
+  points.Syy = array();
   points.patches =
       arena.allocate<PlanePatch>(round_up_to_lanes(capacity), "template patches").data();
   return points;

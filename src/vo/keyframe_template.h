@@ -34,7 +34,7 @@ struct PointSelector {
     std::uint16_t x;
     std::uint16_t y;
     std::uint16_t saliency;  // in steps of two
-    float disparity_px;  // at the level it was selected on
+    float disparity_px;      // at the level it was selected on
   };
   std::span<Candidate> candidates;
 };

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/arena.h"
 #include "base/result.h"
 #include "base/stereo_frame.h"
 #include "base/time.h"
@@ -35,6 +36,14 @@ class Odometry {
 
   [[nodiscard]] const RectifiedRig& rig() const;
   [[nodiscard]] std::size_t arena_bytes() const;
+
+  // Asks `arena` for every buffer that create() claims for a thumbnail of this size, and fills
+  // none.
+  // @pre check_limits() finds nothing wrong.
+  static void claim_buffers(const OdometryConfig& config, int width_px, int height_px,
+                            Arena& arena);
+  // Of the object itself, which is not in the arena.
+  [[nodiscard]] static std::size_t state_bytes();
 
  private:
   struct State;

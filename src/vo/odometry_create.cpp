@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <string>
 #include <utility>
 
+#include "vo/check_limits.h"
 #include "vo/limits.h"
 #include "vo/odometry_state.h"
 
@@ -9,29 +9,15 @@ namespace darkling {
 
 namespace {
 
-Result<void> check_limits(const OdometryConfig& config, const RectifiedRig& rig) {
-  const auto refuse = [](const char* what, int found, int low, int high) {
-    return failure(ExitCode::kConfiguration, std::string(what) + " " + std::to_string(found) +
-                                                 " is outside " + std::to_string(low) + "…" +
-                                                 std::to_string(high));
-  };
-  if (rig.width < kMinWidth || rig.width > kMaxWidth) {
-    return refuse("thumbnail width", rig.width, kMinWidth, kMaxWidth);
+// The thumbnail, or why there is none: the rig makes no sense or a limit is exceeded.
+Result<RectifiedRig> choose_thumbnail(const OdometryConfig& config, const StereoRig& rig) {
+  if (Result<void> checked = check_rig(rig); !checked) return tl::unexpected(checked.error());
+  const int width_px = config.width_px == 0 ? rig.left.width : config.width_px;
+  const int height_px = thumbnail_height(rig.left, width_px);
+  if (Result<void> limits = check_limits(config, width_px, height_px); !limits) {
+    return tl::unexpected(limits.error());
   }
-  if (rig.height < kMinHeight || rig.height > kMaxHeight) {
-    return refuse("thumbnail height", rig.height, kMinHeight, kMaxHeight);
-  }
-  if (config.points_per_level < kMinPointsPerLevel ||
-      config.points_per_level > kMaxPointsPerLevel) {
-    return refuse("points per level", config.points_per_level, kMinPointsPerLevel,
-                  kMaxPointsPerLevel);
-  }
-  return {};
-}
-
-std::size_t arena_capacity(const RectifiedRig& rig) {
-  const std::size_t pixels = std::size_t(rig.width + 64) * (rig.height + 2);
-  return pixels * 64 + std::size_t(rig.width + 64) * kDisparities * 24 + (4u << 20);
+  return rectify_rig(rig, config.width_px);
 }
 
 }  // namespace
@@ -44,35 +30,55 @@ const RectifiedRig& Odometry::rig() const {
 std::size_t Odometry::arena_bytes() const {
   return state_->arena.used_bytes();
 }
+std::size_t Odometry::state_bytes() {
+  return sizeof(State);
+}
 
+Odometry::State::MapMemory Odometry::State::allocate_buffers(Arena& from) {
+  const MapMemory maps = {allocate_area_map(rig, from), allocate_area_map(rig, from)};
+  const int levels = pyramid_level_count(rig.width, rig.height);
+  const int dense_level = stereo_level(rig.width, levels);
+  left = allocate_pyramid(rig, {levels, levels, dense_level}, from);
+  right = allocate_pyramid(rig, {dense_level + 1, 1, dense_level}, from);
+  plane_scratch = allocate_plane_scratch(rig, from);
+  matcher = allocate_stereo_matcher(rig.width >> dense_level, from);
+  disparities = allocate_disparities(rig.width, rig.height, levels, dense_level, from);
+  selector = allocate_point_selector(rig, config.points_per_level, from);
+  residuals = allocate_residuals(config.points_per_level, from);
+  keyframe = allocate_template(levels, config.points_per_level, from);
+  return maps;
+}
+
+void Odometry::claim_buffers(const OdometryConfig& config, int width_px, int height_px,
+                             Arena& arena) {
+  RectifiedRig rig;
+  rig.width = width_px;
+  rig.height = height_px;
+  (void)std::make_unique<State>(config, rig, KernelTable(), nullptr, 0)->allocate_buffers(arena);
+}
+
+// Buffers are claimed twice: first to measure them, then in an arena of exactly that size.
 Result<std::unique_ptr<Odometry>> Odometry::create(const OdometryConfig& config,
                                                    const StereoRig& rig, const KernelTable& kernels,
                                                    ReadClock read_clock) {
-  const Result<RectifiedRig> rectified = rectify_rig(rig, config.width_px);
+  const Result<RectifiedRig> rectified = choose_thumbnail(config, rig);
   if (!rectified) return tl::unexpected(rectified.error());
-  if (Result<void> limits = check_limits(config, *rectified); !limits) {
-    return tl::unexpected(limits.error());
-  }
+  Arena measuring = Arena::measuring();
+  claim_buffers(config, rectified->width, rectified->height, measuring);
+
   auto state =
-      std::make_unique<State>(config, *rectified, kernels, read_clock, arena_capacity(*rectified));
+      std::make_unique<State>(config, *rectified, kernels, read_clock, measuring.used_bytes());
   State& s = *state;
-  const auto left_map = build_area_map(rig.left, s.rig, s.rig.R_rawleft_left, s.arena);
+  const State::MapMemory maps = s.allocate_buffers(s.arena);
+  CHECK(s.arena.used_bytes() == s.arena.capacity_bytes(), "an arena is as large as was measured");
+  s.arena.seal();
+
+  const auto left_map = fill_area_map(rig.left, s.rig, s.rig.R_rawleft_left, maps.left);
   if (!left_map) return tl::unexpected(left_map.error());
-  const auto right_map = build_area_map(rig.right, s.rig, s.rig.R_rawright_right, s.arena);
+  const auto right_map = fill_area_map(rig.right, s.rig, s.rig.R_rawright_right, maps.right);
   if (!right_map) return tl::unexpected(right_map.error());
   s.left_map = *left_map;
   s.right_map = *right_map;
-  const int levels = pyramid_level_count(s.rig.width, s.rig.height);
-  const int dense_level = stereo_level(s.rig.width, levels);
-  s.left = allocate_pyramid(s.rig, {levels, levels, dense_level}, s.arena);
-  s.right = allocate_pyramid(s.rig, {dense_level + 1, 1, dense_level}, s.arena);
-  s.plane_scratch = allocate_plane_scratch(s.rig, s.arena);
-  s.matcher = allocate_stereo_matcher(s.rig.width >> dense_level, s.arena);
-  s.disparities = allocate_disparities(s.rig.width, s.rig.height, levels, dense_level, s.arena);
-  s.selector = allocate_point_selector(s.rig, config.points_per_level, s.arena);
-  s.residuals = allocate_residuals(config.points_per_level, s.arena);
-  s.keyframe = allocate_template(levels, config.points_per_level, s.arena);
-  s.arena.seal();
   return std::unique_ptr<Odometry>(new Odometry(std::move(state)));
 }
 

@@ -47,6 +47,14 @@ struct Odometry::State {
         read_clock(read_clock_),
         arena(arena_bytes) {}
 
+  // Claims every buffer in `from` and fills none.
+  // @return the memory of the maps, which look into it once they are filled.
+  struct MapMemory {
+    AreaMapMemory left;
+    AreaMapMemory right;
+  };
+  [[nodiscard]] MapMemory allocate_buffers(Arena& from);
+
   void prepare_left(const StereoFrame& frame, Estimate& estimate);
   bool make_keyframe(const StereoFrame& frame, Estimate& estimate);
   void start(const StereoFrame& frame, Estimate& estimate);

@@ -4,6 +4,7 @@
 
 #include "integration/darkling.h"
 #include "io/trajectory.h"
+#include "support/sanitized.h"
 #include "support/tiny_dataset.h"
 
 namespace darkling {
@@ -58,6 +59,11 @@ TEST_F(Replay, WritesEveryFixedKeyOfTheStatistics) {
   EXPECT_GT(json["frame_ms"]["p50"], 0.0);
   EXPECT_GT(json["stage_us"]["track"]["p50"], 0.0);
   EXPECT_GT(json["peak_rss_bytes"], 1 << 20);
+  if (test::kIsSanitized) {
+    EXPECT_TRUE(json["heap_calls_after_start"].is_null());
+  } else {
+    EXPECT_EQ(json["heap_calls_after_start"], 0);
+  }
 }
 
 TEST_F(Replay, WritesAKittiRowAFrameFromTheIdentityOn) {

@@ -90,6 +90,46 @@ TEST(Arena, CanBeFilledToTheLastByte) {
   EXPECT_EQ(arena.used_bytes(), arena.capacity_bytes());
 }
 
+struct CountsItsConstructions {
+  static inline int constructed = 0;
+  double value;
+  CountsItsConstructions() : value(1.0) { ++constructed; }
+};
+
+// Sizes that do not end on cache lines, so that the gaps count.
+void make_requests(Arena& arena) {
+  static_cast<void>(arena.allocate<char>(3, "few"));
+  static_cast<void>(arena.allocate<CountsItsConstructions>(5, "structs"));
+  static_cast<void>(arena.allocate_image<float>(17, 3, "floats"));
+  static_cast<void>(arena.allocate<char>(1, "one"));
+}
+
+TEST(Arena, OnlyMeasuresWithoutConstructingAnything) {
+  Arena measuring = Arena::measuring();
+  CountsItsConstructions::constructed = 0;
+  EXPECT_TRUE(measuring.allocate<CountsItsConstructions>(5, "structs").empty());
+  EXPECT_EQ(CountsItsConstructions::constructed, 0);
+  const auto image = measuring.allocate_image<float>(17, 3, "floats");
+  EXPECT_EQ(image.data, nullptr);
+  EXPECT_TRUE(image.has_size(17, 3));
+  EXPECT_EQ(image.stride, 32);
+}
+
+TEST(Arena, MeasuresWhatTheSameRequestsFillToTheLastByte) {
+  Arena measuring = Arena::measuring();
+  make_requests(measuring);
+  Arena exact(measuring.used_bytes());
+  make_requests(exact);
+  EXPECT_EQ(exact.used_bytes(), exact.capacity_bytes());
+  ASSERT_EQ(exact.entries().size(), measuring.entries().size());
+  for (std::size_t i = 0; i < exact.entries().size(); ++i) {
+    EXPECT_STREQ(exact.entries()[i].name, measuring.entries()[i].name);
+    EXPECT_EQ(exact.entries()[i].bytes, measuring.entries()[i].bytes);
+  }
+  Arena short_of_a_byte(measuring.used_bytes() - 1);
+  EXPECT_DEATH(make_requests(short_of_a_byte), "arena is full");
+}
+
 TEST(ArenaDeath, AbortsWhenASealedArenaIsAskedForMemory) {
   Arena arena(4096);
   arena.seal();

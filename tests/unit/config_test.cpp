@@ -68,7 +68,8 @@ TEST(LoadConfig, RefusesAKeyGivenTwice) {
 
 TEST(LoadConfig, SaysWhatIsAllowedOfAValueOutOfRange) {
   expect_refused(load_content("width_px: 20\n"), ExitCode::kConfiguration,
-                 "rover.yaml:1: key 'width_px': found '20', allowed is 64 to 1280 px or 0");
+                 "rover.yaml:1: key 'width_px': found '20', allowed is 64 to 1280 px or 0 "
+                 "(kMinWidth, kMaxWidth)");
   expect_refused(load_setting("width_px=1281"), ExitCode::kUsage, "allowed is 64 to 1280 px or 0");
   expect_refused(load_setting("width_px=-1"), ExitCode::kUsage, "found '-1'");
   EXPECT_TRUE(load_setting("width_px=0"));

@@ -92,6 +92,7 @@ TEST(Summary, CountsFramesByWhatBecameOfThem) {
   EXPECT_THAT(summary, HasSubstr("/rec/night\n"));
   EXPECT_THAT(summary, HasSubstr("10: 7 tracked, 1 degraded, 1 lost, 1 bad"));
   EXPECT_THAT(summary, HasSubstr("1 with an absent or damaged image"));
+  EXPECT_THAT(summary, HasSubstr("3.0 MiB fixed at start\n"));
   EXPECT_THAT(summary, Not(HasSubstr("interrupted")));
 }
 
@@ -113,6 +114,14 @@ TEST(Summary, MarksAnInterruptedRun) {
   RunReport report = example_report();
   report.was_interrupted = true;
   EXPECT_THAT(format_summary(report), HasSubstr("/rec/night  (interrupted)"));
+}
+
+TEST(Summary, ShowsHeapCallsWhereTheyAreCounted) {
+  RunReport report = example_report();
+  report.heap_calls_after_start = 0;
+  EXPECT_THAT(format_summary(report), HasSubstr("3.0 MiB fixed at start, 0 heap calls after\n"));
+  report.heap_calls_after_start = 17;
+  EXPECT_THAT(format_summary(report), HasSubstr(", 17 heap calls after"));
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ struct Maps {
     eyes[0] = {&rig_case.rig.left, rectified.R_rawleft_left, {}};
     eyes[1] = {&rig_case.rig.right, rectified.R_rawright_right, {}};
     for (Eye& eye : eyes) {
-      eye.map = *build_area_map(*eye.camera, rectified, eye.R_raw_rectified, arena);
+      eye.map = *fill_area_map(*eye.camera, rectified, eye.R_raw_rectified,
+                               allocate_area_map(rectified, arena));
     }
   }
   // Where the thumbnail pixel's ray meets the raw image.
@@ -161,10 +162,11 @@ TEST(AreaMap, RefusesAReductionBeyondItsTaps) {
   rectified.focal_px *= 30.0 / 310.0;
   Arena arena(1u << 20);
   const StereoRig rig = test::kitti_rig();
-  const Result<AreaMap> map = build_area_map(rig.left, rectified, rectified.R_rawleft_left, arena);
+  const Result<AreaMap> map = fill_area_map(rig.left, rectified, rectified.R_rawleft_left,
+                                            allocate_area_map(rectified, arena));
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().code, ExitCode::kConfiguration);
-  EXPECT_THAT(map.error().message, HasSubstr("at most 1 : 31"));
+  EXPECT_THAT(map.error().message, HasSubstr("to 30 px is above kMaxReduction = 31"));
 }
 
 }  // namespace

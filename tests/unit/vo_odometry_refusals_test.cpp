@@ -3,11 +3,10 @@
 #include <cmath>
 #include <ostream>
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "support/kernel_cases.h"
 #include "support/synthetic_run.h"
-#include "vo/limits.h"
 #include "vo/odometry.h"
 
 namespace darkling {
@@ -15,7 +14,6 @@ namespace {
 
 using test::KeptFrame;
 using test::SyntheticRun;
-using ::testing::HasSubstr;
 
 constexpr char kCorridor[] = "corridor,frames=12,width=160,seed=2";
 
@@ -113,61 +111,6 @@ TEST(ConfidentAndWrong, IsNoticed) {
   EXPECT_FALSE(is_confident_and_wrong(estimate, Se3()));
   estimate.status = TrackStatus::kDegraded;
   EXPECT_FALSE(is_confident_and_wrong(estimate, away));
-}
-
-TEST(OdometryCreate, WorksAtTheSmallestSize) {
-  const SyntheticRun& run = test::synthetic_run("corridor,frames=3,width=64,height=48,seed=2");
-  const auto odometry = Odometry::create({.width_px = 64, .points_per_level = kMinPointsPerLevel},
-                                         run.rig, KernelTable(), stopped_clock);
-  ASSERT_TRUE(odometry) << odometry.error().message;
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_TRUE(is_finite((*odometry)->track(run.frames[static_cast<std::size_t>(i)].at(i))));
-  }
-}
-
-TEST(OdometryCreate, FitsItsArenaAtEverySize) {
-  StereoRig rig = test::synthetic_run(kCorridor).rig;
-  for (const double factor : {4.0, 8.0}) {
-    StereoRig larger = rig;
-    for (Camera* camera : {&larger.left, &larger.right}) {
-      camera->width = static_cast<int>(160 * factor);
-      camera->height = static_cast<int>(120 * factor);
-      camera->fx *= factor;
-      camera->fy *= factor;
-      camera->cx = (camera->cx + 0.5) * factor - 0.5;
-      camera->cy = (camera->cy + 0.5) * factor - 0.5;
-    }
-    for (const int points : {kMinPointsPerLevel, kMaxPointsPerLevel}) {
-      for (const int width_px : {64, 97, 320, 0}) {
-        const auto odometry = Odometry::create({.width_px = width_px, .points_per_level = points},
-                                               larger, KernelTable(), stopped_clock);
-        ASSERT_TRUE(odometry) << odometry.error().message;
-        EXPECT_GT((*odometry)->arena_bytes(), 0u);
-      }
-    }
-  }
-}
-
-TEST(OdometryCreate, KeepsItsBudgetAt320By240) {
-  const SyntheticRun& run = test::synthetic_run("corridor,frames=1,width=320");
-  const auto odometry = Odometry::create({.width_px = 320}, run.rig, KernelTable(), stopped_clock);
-  ASSERT_TRUE(odometry);
-  EXPECT_LT((*odometry)->arena_bytes(), 8u << 20);
-}
-
-TEST(OdometryCreate, RefusesWhatIsOutsideTheLimitsByName) {
-  const SyntheticRun& run = test::synthetic_run(kCorridor);
-  const auto refused = [&](const OdometryConfig& config) {
-    const auto odometry = Odometry::create(config, run.rig, KernelTable(), stopped_clock);
-    EXPECT_FALSE(odometry);
-    EXPECT_EQ(odometry.error().code, ExitCode::kConfiguration);
-    return odometry.error().message;
-  };
-  EXPECT_THAT(refused({.width_px = 63}), HasSubstr("thumbnail width 63 is outside 64…1280"));
-  EXPECT_THAT(refused({.width_px = 161}), HasSubstr("161"));
-  EXPECT_THAT(refused({.width_px = 160, .points_per_level = 10}),
-              HasSubstr("points per level 10 is outside 50…4000"));
-  EXPECT_THAT(refused({.width_px = 160, .points_per_level = 5000}), HasSubstr("5000"));
 }
 
 }  // namespace
