@@ -25,8 +25,8 @@ inline constexpr int kPlaneCount = 8;
 //   3. planes    bit c becomes 0 or 255 in plane c;
 //   4. smoothing three times down the columns, then three times along the rows,
 //                  m(i) ← ⌈(⌈(m(i-1) + m(i+1)) / 2⌉ + m(i)) / 2⌉:
-//                in all the binomial filter of order 6, a Gaussian of σ = 1.22 px. Each half step is
-//                one byte-wise rounded average, an instruction everywhere; the roundings shift a
+//                in all the binomial filter of order 6, a Gaussian of σ = 1.22 px. Each half step
+//                is one byte-wise rounded average, an instruction everywhere; the roundings shift a
 //                plane by at most 3 of 255, the same in every image.
 //
 // Beyond the border the nearest pixel stands in, before each of the four steps.

@@ -145,11 +145,8 @@ class SmoothedPlanes {
   }
 
   void push(const std::uint8_t* codes) {
-    rows_.smooth_down({codes,
-                       {older_[0], older_[1], older_[2]},
-                       {newer_[0], newer_[1], newer_[2]},
-                       in_,
-                       width_});
+    rows_.smooth_down(
+        {codes, {older_[0], older_[1], older_[2]}, {newer_[0], newer_[1], newer_[2]}, in_, width_});
     for (int pass = 0; pass < kPasses; ++pass) std::swap(older_[pass], newer_[pass]);
   }
 

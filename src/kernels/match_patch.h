@@ -40,7 +40,8 @@ struct PatchFit {
 };
 
 // Compares 3×3 pixels of smoothed bit-planes, the right ones between two pixels of a row.
-// @param left   planes at pixel (x, y); two pixels to either side and one row above and below exist.
+// @param left   planes at pixel (x, y); two pixels to either side and one row above and below
+// exist.
 // @param right  planes at pixel (u, y); from u - 1 to u + 2, and as many rows.
 // @param fraction_q12  the patch of the right eye lies this much to the right of u, in 1/4096 px.
 // Fixed point: r is taken at 1/16, rounded half up; Σ r² fits 31 bits.

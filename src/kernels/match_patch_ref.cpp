@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kernels/match_patch.h"
-
 #include <bit>
 #include <cstring>
 
 #include "kernels/bit_planes.h"
+#include "kernels/match_patch.h"
 
 namespace darkling {
 
@@ -24,8 +23,7 @@ std::uint64_t seven_codes(const std::uint8_t* codes) {
 }  // namespace
 
 void match_codes_ref(const std::uint8_t* left, std::ptrdiff_t left_stride,
-                     const std::uint8_t* right, std::ptrdiff_t right_stride, int count,
-                     int* cost) {
+                     const std::uint8_t* right, std::ptrdiff_t right_stride, int count, int* cost) {
   for (int k = 0; k < count; ++k) {
     int sum = 0;
     for (int j = -kCodePatchRadius; j <= kCodePatchRadius; ++j) {

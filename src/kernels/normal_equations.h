@@ -13,8 +13,9 @@ struct NormalSums {
   float g[6] = {};
 };
 
-// With p = (x, y, f)/s in metres, s = f/z, the derivative of a point's pixel by a right perturbation
-// of T_current_key, at the identity, is J = (Ju, Jv)ᵀ; divided by f, with X = x/f, Y = y/f:
+// With p = (x, y, f)/s in metres, s = f/z, the derivative of a point's pixel by a right
+// perturbation of T_current_key, at the identity, is J = (Ju, Jv)ᵀ; divided by f, with X = x/f, Y =
+// y/f:
 //   Ju / f = [s/f, 0, -X s/f, -X Y, 1 + X², -Y],   Jv / f = [0, s/f, -Y s/f, -(1 + Y²), X Y, X].
 // One robust weight a point, Geman and McClure's: w = 1 / (1 + squares · inverse_scale)²; 0 for
 // points that are not in the image.

@@ -40,11 +40,14 @@ void add_8(const TemplatePoints& points, const PointResiduals& residuals, int i,
   const __m256 XY = _mm256_mul_ps(X, Y);
   const __m256 one = _mm256_set1_ps(1.0f);
   const __m256 zero = _mm256_setzero_ps();
-  const __m256 Ju[6] = {s,          zero, negate(_mm256_mul_ps(X, s)),
-                        negate(XY), _mm256_add_ps(one, _mm256_mul_ps(X, X)), negate(Y)};
+  const __m256 Ju[6] = {s,
+                        zero,
+                        negate(_mm256_mul_ps(X, s)),
+                        negate(XY),
+                        _mm256_add_ps(one, _mm256_mul_ps(X, X)),
+                        negate(Y)};
   const __m256 Jv[6] = {
-      zero, s, negate(_mm256_mul_ps(Y, s)), negate(_mm256_add_ps(one, _mm256_mul_ps(Y, Y))),
-      XY,   X};
+      zero, s, negate(_mm256_mul_ps(Y, s)), negate(_mm256_add_ps(one, _mm256_mul_ps(Y, Y))), XY, X};
   const __m256 Sxx = _mm256_mul_ps(w, _mm256_loadu_ps(points.Sxx + i));
   const __m256 Sxy = _mm256_mul_ps(w, _mm256_loadu_ps(points.Sxy + i));
   const __m256 Syy = _mm256_mul_ps(w, _mm256_loadu_ps(points.Syy + i));

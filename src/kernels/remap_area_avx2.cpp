@@ -81,8 +81,7 @@ __m128i weigh_wide(const Source& s, const AreaMapEntry& e) {
       along = _mm_add_epi16(along, _mm_maddubs_epi16(_mm_unpacklo_epi64(w, w),
                                                      to_signed(_mm_unpacklo_epi64(first, second))));
     }
-    const __m128i four_each =
-        _mm_setr_epi8(0, -1, 0, -1, 0, -1, 0, -1, 1, -1, 1, -1, 1, -1, 1, -1);
+    const __m128i four_each = _mm_setr_epi8(0, -1, 0, -1, 0, -1, 0, -1, 1, -1, 1, -1, 1, -1, 1, -1);
     const __m128i down = _mm_shuffle_epi8(_mm_cvtsi32_si128(wy[j] | wy[j + 1] << 8), four_each);
     sum = _mm_add_epi32(sum, _mm_madd_epi16(along, down));
   }

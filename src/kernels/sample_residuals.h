@@ -8,7 +8,8 @@
 
 namespace darkling {
 
-// Kernels that go over points take this many at a time; their arrays have room for a multiple of it.
+// Kernels that go over points take this many at a time; their arrays have room for a multiple of
+// it.
 inline constexpr int kPointLanes = 8;
 [[nodiscard]] constexpr int round_up_to_lanes(int count) {
   return (count + kPointLanes - 1) / kPointLanes * kPointLanes;
@@ -27,7 +28,7 @@ struct TemplatePoints {
   float* x = nullptr;                    // px from the principal point
   float* y = nullptr;                    // px from the principal point
   float* inverse_depth_focal = nullptr;  // f / z = disparity / baseline, px/m
-  float* Sxx = nullptr;                  // Gram matrix of the plane gradients, Σ_c ∇φ_c ∇φ_cᵀ
+  float* Sxx = nullptr;  // Gram matrix of the plane gradients, Σ_c ∇φ_c ∇φ_cᵀ
   float* Sxy = nullptr;
   float* Syy = nullptr;
   PlanePatch* patches = nullptr;

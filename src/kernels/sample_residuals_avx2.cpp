@@ -84,8 +84,8 @@ __m256i blend_row(const std::uint8_t* row, std::int32_t weights) {
 // r_c of one point in 1/64.
 __m128i residual(const std::uint8_t* upper, std::ptrdiff_t stride, std::int32_t upper_weights,
                  std::int32_t lower_weights, const PlanePatch& patch) {
-  const __m256i value = _mm256_add_epi32(blend_row(upper, upper_weights),
-                                         blend_row(upper + stride, lower_weights));
+  const __m256i value =
+      _mm256_add_epi32(blend_row(upper, upper_weights), blend_row(upper + stride, lower_weights));
   const __m256i rounded = _mm256_srai_epi32(_mm256_add_epi32(value, _mm256_set1_epi32(128)), 8);
   const __m128i words =
       _mm_packs_epi32(_mm256_castsi256_si128(rounded), _mm256_extracti128_si256(rounded, 1));
@@ -116,8 +116,8 @@ __m256 add_parts(const std::int32_t parts[kPointLanes][4], float unit) {
     return _mm256_set_m128i(_mm_load_si128(reinterpret_cast<const __m128i*>(parts[i + 4])),
                             _mm_load_si128(reinterpret_cast<const __m128i*>(parts[i])));
   };
-  const __m256i sums = _mm256_hadd_epi32(_mm256_hadd_epi32(pair(0), pair(1)),
-                                         _mm256_hadd_epi32(pair(2), pair(3)));
+  const __m256i sums =
+      _mm256_hadd_epi32(_mm256_hadd_epi32(pair(0), pair(1)), _mm256_hadd_epi32(pair(2), pair(3)));
   return _mm256_mul_ps(_mm256_cvtepi32_ps(sums), _mm256_set1_ps(unit));
 }
 
@@ -136,8 +136,8 @@ int sample_residuals_avx2(const TemplatePoints& points, const PointWarp& warp,
     for (int left = at.inside; left != 0; left &= left - 1) {
       const int k = __builtin_ctz(static_cast<unsigned>(left));
       const PlanePatch& patch = points.patches[first + k];
-      const std::uint8_t* upper = planes.data + (at.v_q12[k] >> 12) * planes.stride +
-                                  (at.u_q12[k] >> 12) * kPlaneCount;
+      const std::uint8_t* upper =
+          planes.data + (at.v_q12[k] >> 12) * planes.stride + (at.u_q12[k] >> 12) * kPlaneCount;
       const __m128i r = residual(upper, planes.stride, at.upper[k], at.lower[k], patch);
       const auto put = [&sums, k](int which, __m128i value) {
         _mm_store_si128(reinterpret_cast<__m128i*>(sums.parts[which][k]), value);

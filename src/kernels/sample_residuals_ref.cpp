@@ -49,8 +49,7 @@ int sample_residuals_ref(const TemplatePoints& points, const PointWarp& warp,
   const float v_end = static_cast<float>(planes.height - 2);
   int visible = 0;
   for (int i = 0; i < round_up_to_lanes(points.count); ++i) {
-    const Position p =
-        i < points.count ? warp_point(points, i, warp, u_end, v_end) : Position{};
+    const Position p = i < points.count ? warp_point(points, i, warp, u_end, v_end) : Position{};
     if (!p.is_inside) {
       out.bx[i] = 0.0f;
       out.by[i] = 0.0f;

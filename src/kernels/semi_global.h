@@ -61,7 +61,8 @@ struct StereoRow {
   std::uint8_t* cost = nullptr;  // width × kDisparities: matching costs
   std::uint16_t* sum = nullptr;  // as many: Σ of the five path costs
   // The winners as sum · kDisparities + d, so that the least number is the least sum and, of equal
-  // ones, the least disparity. For left pixels, among disparities that lie inside the right image; …
+  // ones, the least disparity. For left pixels, among disparities that lie inside the right image;
+  // …
   std::uint16_t* left_winner = nullptr;  // width
   // … for right pixels from the end of the row, as right_reversed. kDisparities more are written.
   std::uint16_t* right_winner = nullptr;

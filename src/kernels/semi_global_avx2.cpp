@@ -32,8 +32,8 @@ __m256i beyond(int x) {
 }
 
 __m256i count_bits(__m256i bytes) {
-  const __m256i counts = _mm256_broadcastsi128_si256(
-      _mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
+  const __m256i counts =
+      _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4));
   const __m256i nibble = _mm256_set1_epi8(15);
   const __m256i low = _mm256_and_si256(bytes, nibble);
   const __m256i high = _mm256_and_si256(_mm256_srli_epi16(bytes, 4), nibble);
@@ -123,11 +123,11 @@ void walk_right(const std::uint8_t* const hamming[3], const Penalties& p, const 
     __m256i path[3];
     for (int direction = 0; direction < 3; ++direction) {
       const int from = x + direction;  // a guard pixel at the left end: x - 1, x, x + 1
-      path[direction] = step_from_above(
-          cost, p, paths.costs[direction][before] + from * kPathStride + kPathGuard,
-          paths.minima[direction][before][from],
-          paths.costs[direction][now] + (x + 1) * kPathStride + kPathGuard,
-          paths.minima[direction][now] + x + 1);
+      path[direction] =
+          step_from_above(cost, p, paths.costs[direction][before] + from * kPathStride + kPathGuard,
+                          paths.minima[direction][before][from],
+                          paths.costs[direction][now] + (x + 1) * kPathStride + kPathGuard,
+                          paths.minima[direction][now] + x + 1);
     }
     const __m256i last = along.step(cost, p);
     const auto add = [&](__m256i (*half)(__m256i)) {
@@ -169,9 +169,8 @@ void walk_left(const Penalties& p, int width, const StereoRow& row) {
     const __m256i outside = beyond(x);
     const __m128i low_out = _mm256_castsi256_si128(outside);
     const __m128i high_out = _mm256_extracti128_si256(outside, 1);
-    row.left_winner[x] =
-        least_word(_mm256_or_si256(low_key, _mm256_cvtepi8_epi16(low_out)),
-                   _mm256_or_si256(high_key, _mm256_cvtepi8_epi16(high_out)));
+    row.left_winner[x] = least_word(_mm256_or_si256(low_key, _mm256_cvtepi8_epi16(low_out)),
+                                    _mm256_or_si256(high_key, _mm256_cvtepi8_epi16(high_out)));
   }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kernels/semi_global.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
+
+#include "kernels/semi_global.h"
 
 namespace darkling {
 

@@ -102,8 +102,8 @@ NormalEquations accumulate(const KernelTable& kernels, const TemplatePoints& poi
   constexpr float kScaleOfMedian = 0.8f;
   constexpr float kLeastSquares = kPlaneCount;  // σ of one grey level
   const float scale_squares =
-      std::max(kLeastSquares, kScaleOfMedian * kScaleOfMedian *
-                                  median_squares(residuals, points.count, visible));
+      std::max(kLeastSquares,
+               kScaleOfMedian * kScaleOfMedian * median_squares(residuals, points.count, visible));
   NormalSums sums;
   kernels.normal_equations(points, residuals, static_cast<float>(focal_px), 1.0f / scale_squares,
                            sums);

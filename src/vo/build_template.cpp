@@ -16,7 +16,8 @@ TemplatePoints allocate_points(int capacity, Arena& arena) {
   points.Sxx = array("template Sxx");
   points.Sxy = array("template Sxy");
   points.Syy = array("template Syy");
-  points.patches = arena.allocate<PlanePatch>(round_up_to_lanes(capacity), "template patches").data();
+  points.patches =
+      arena.allocate<PlanePatch>(round_up_to_lanes(capacity), "template patches").data();
   return points;
 }
 
@@ -71,8 +72,7 @@ void build_template_level(std::span<const PointSelector::Candidate> candidates,
     inverse_depth_sum += static_cast<double>(points.inverse_depth_focal[i]);
   }
   points.count = count;
-  out.mean_inverse_depth_focal =
-      count > 0 ? static_cast<float>(inverse_depth_sum / count) : 0.0f;
+  out.mean_inverse_depth_focal = count > 0 ? static_cast<float>(inverse_depth_sum / count) : 0.0f;
 }
 
 }  // namespace darkling

@@ -25,8 +25,8 @@ struct StereoMatcher {
 
 // The pyramid level that is matched densely: the finest one at most kMaxStereoWidth wide. There 32
 // disparities reach a sixth of the width and more, to 1.7 m with a car's cameras and 0.4 m with an
-// 11 cm baseline, and the cost does not grow with the thumbnail. What the finer levels need is found
-// from there for the points that are kept (refine_disparity.h).
+// 11 cm baseline, and the cost does not grow with the thumbnail. What the finer levels need is
+// found from there for the points that are kept (refine_disparity.h).
 [[nodiscard]] int stereo_level(int width_px, int level_count);
 
 [[nodiscard]] StereoMatcher allocate_stereo_matcher(int width_px, int height_px, Arena& arena);

@@ -67,8 +67,8 @@ Result<std::unique_ptr<Odometry>> Odometry::create(const OdometryConfig& config,
   s.left = allocate_pyramid(s.rig, {levels, levels, s.dense_level}, s.arena);
   s.right = allocate_pyramid(s.rig, {s.dense_level + 1, 1, s.dense_level}, s.arena);
   s.plane_scratch = allocate_plane_scratch(s.rig, s.arena);
-  s.matcher = allocate_stereo_matcher(s.rig.width >> s.dense_level, s.rig.height >> s.dense_level,
-                                      s.arena);
+  s.matcher =
+      allocate_stereo_matcher(s.rig.width >> s.dense_level, s.rig.height >> s.dense_level, s.arena);
   s.selector = allocate_point_selector(s.rig, config.points_per_level, s.arena);
   s.residuals = allocate_residuals(config.points_per_level, s.arena);
   s.keyframe = allocate_template(levels, config.points_per_level, s.arena);

@@ -22,8 +22,8 @@ struct Odometry::State {
   AreaMap left_map;
   AreaMap right_map;
   FramePyramid left;
-  FramePyramid right;      // levels 0 … dense_level; planes only on level 0
-  int dense_level = 0;     // the level that is matched densely
+  FramePyramid right;   // levels 0 … dense_level; planes only on level 0
+  int dense_level = 0;  // the level that is matched densely
   std::span<std::uint8_t> plane_scratch;
   StereoMatcher matcher;
   PointSelector selector;

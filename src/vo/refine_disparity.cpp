@@ -40,8 +40,8 @@ int best_disparity(const KernelTable& kernels, const PyramidLevel& left, const P
 }
 
 // The whole disparity within `reach` of the candidate's where the patches agree best. To ask the
-// right eye too, and drop where it disagrees, was tried: a car's drift rose from 0.96 to 1.05 %, and
-// no other recording gained.
+// right eye too, and drop where it disagrees, was tried: a car's drift rose from 0.96 to 1.05 %,
+// and no other recording gained.
 float search(const KernelTable& kernels, const PyramidLevel& left, const PyramidLevel& right,
              const PointSelector::Candidate& c, int reach) {
   const bool has_patch = c.x >= kCodePatchRadius && c.x < left.codes.width - kCodePatchRadius &&

@@ -96,9 +96,8 @@ std::span<PointSelector::Candidate> select_points(const KernelTable& kernels,
     for (int column = 0; column < columns; ++column) {
       const int x_begin = std::max(kBorder, column * width / columns);
       const int x_end = std::min(width - kBorder, (column + 1) * width / columns);
-      const PointSelector::Candidate best =
-          best_in_cell({x_begin, x_end, y_begin, y_end}, saliency, disparity,
-                       level - disparity_level);
+      const PointSelector::Candidate best = best_in_cell({x_begin, x_end, y_begin, y_end}, saliency,
+                                                         disparity, level - disparity_level);
       if (best.disparity_px >= 0.0f && count < selector.candidates.size()) {
         selector.candidates[count++] = best;
       }
