@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "support/guarded_points.h"
+
 namespace darkling::test {
 namespace {
 
@@ -52,6 +54,35 @@ TEST(GuardedImage, StartsWhereTheLayoutSays) {
   GuardedImage<std::uint8_t> image(
       {.width = 5, .height = 3, .distance_to_guard = 7, .guard = GuardSide::kBeforeFirstRow});
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(image.view().data) % 64, 7U);
+}
+
+TEST(GuardedPoints, HaveRoomForWholeLanesAndNoticeAWriteBeforeEveryArray) {
+  for (int array = 0; array < 7; ++array) {
+    SCOPED_TRACE(array);
+    GuardedPoints guarded(9);
+    TemplatePoints& points = guarded.points();
+    float* const floats[] = {points.x,   points.y,   points.inverse_depth_focal,
+                             points.Sxx, points.Sxy, points.Syy};
+    for (float* values : floats) std::fill_n(values, 16, 0.0f);
+    std::fill_n(points.patches, 16, PlanePatch());
+    ASSERT_TRUE(guarded.padding_is_untouched());
+    if (array < 6) floats[array][-1] = 0.0f;
+    if (array == 6) points.patches[-1] = {};
+    EXPECT_FALSE(guarded.padding_is_untouched());
+  }
+}
+
+TEST(GuardedResiduals, NoticeAWriteBeforeEveryArrayAndDieOnOneBehind) {
+  for (int array = 0; array < 3; ++array) {
+    GuardedResiduals guarded(3);
+    const PointResiduals out = guarded.out();
+    float* const floats[] = {out.bx, out.by, out.squares};
+    std::fill_n(floats[array], 8, 0.0f);
+    ASSERT_TRUE(guarded.padding_is_untouched());
+    floats[array][-1] = 0.0f;
+    EXPECT_FALSE(guarded.padding_is_untouched()) << array;
+    EXPECT_DEATH(floats[array][8] = 0.0f, "") << array;
+  }
 }
 
 }  // namespace

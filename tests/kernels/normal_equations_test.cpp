@@ -107,6 +107,18 @@ bool are_same_bits(const NormalSums& a, const NormalSums& b) {
   return std::memcmp(&a, &b, sizeof(NormalSums)) == 0;
 }
 
+TEST(SumsOfTwoTables, AreNotTheSameWhenASingleBitDiffers) {
+  NormalSums a;
+  a.H[20] = a.g[5] = 1.0f;
+  NormalSums b = a;
+  EXPECT_TRUE(are_same_bits(a, b));
+  b.H[20] = std::nextafter(1.0f, 2.0f);
+  EXPECT_FALSE(are_same_bits(a, b));
+  b = a;
+  b.g[0] = -0.0f;
+  EXPECT_FALSE(are_same_bits(a, b));
+}
+
 TEST_P(EachNormalEquations, EqualTheOracleWithItsNumericJacobianForEveryCount) {
   Random random(1);
   for (const int count : {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12,  13,

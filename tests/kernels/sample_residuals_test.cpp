@@ -92,27 +92,27 @@ ExpectedPoint residual_oracle(const TemplatePoints& points, int i, const PointWa
 }
 
 // Whether all three sums of point `i` are what residuals give that are less than `r_bound` off.
-void expect_near(const PointResiduals& out, int i, const ExpectedPoint& expected,
-                 const PlanePatch& patch, double r_bound) {
-  constexpr double kToFloat = 1e-6;  // relative
-  double bx = 0.0;
-  double by = 0.0;
-  double squares = 0.0;
-  double x_slope = 0.0;
-  double y_slope = 0.0;
-  double squares_slope = 0.0;
+::testing::AssertionResult is_near(const PointResiduals& out, int i, const ExpectedPoint& expected,
+                                   const PlanePatch& patch, double r_bound) {
+  double sums[3] = {};
+  double bounds[3] = {};
   for (int c = 0; c < kPlaneCount; ++c) {
     const double r = expected.r[static_cast<std::size_t>(c)];
-    bx += 0.5 * patch.gx2[c] * r;
-    by += 0.5 * patch.gy2[c] * r;
-    squares += r * r;
-    x_slope += 0.5 * std::abs(patch.gx2[c]);
-    y_slope += 0.5 * std::abs(patch.gy2[c]);
-    squares_slope += 2.0 * std::abs(r) + r_bound;
+    sums[0] += 0.5 * patch.gx2[c] * r;
+    sums[1] += 0.5 * patch.gy2[c] * r;
+    sums[2] += r * r;
+    bounds[0] += 0.5 * std::abs(patch.gx2[c]) * r_bound;
+    bounds[1] += 0.5 * std::abs(patch.gy2[c]) * r_bound;
+    bounds[2] += (2.0 * std::abs(r) + r_bound) * r_bound;
   }
-  EXPECT_NEAR(out.bx[i], bx, r_bound * x_slope + kToFloat * std::abs(bx));
-  EXPECT_NEAR(out.by[i], by, r_bound * y_slope + kToFloat * std::abs(by));
-  EXPECT_NEAR(out.squares[i], squares, r_bound * squares_slope + kToFloat * squares);
+  const float found[3] = {out.bx[i], out.by[i], out.squares[i]};
+  for (int k = 0; k < 3; ++k) {
+    const double to_float = 1e-6 * std::abs(sums[k]);
+    if (std::abs(double{found[k]} - sums[k]) <= bounds[k] + to_float) continue;
+    return ::testing::AssertionFailure() << "sum " << k << " is " << found[k] << ", not " << sums[k]
+                                         << " give or take " << bounds[k];
+  }
+  return ::testing::AssertionSuccess();
 }
 
 constexpr double kResidualBound = 1.0 / 64.0 + 1.0 / 128.0;
@@ -163,8 +163,29 @@ TEST_P(EachSampleResiduals, ErrByLessThanTheContractAllowsAtExactPositions) {
     for (int i = 0; i < points.count && !HasFailure(); ++i) {
       const ExpectedPoint expected = residual_oracle(points, i, warp, planes_.view());
       ASSERT_EQ(expected.u, static_cast<double>(points.x[i]));
-      expect_near(out, i, expected, points.patches[i], kResidualBound);
+      ASSERT_TRUE(is_near(out, i, expected, points.patches[i], kResidualBound));
     }
+  }
+}
+
+TEST(SumsOfAPoint, AreNotNearWhenOneOfThemIsTwentyFiveOff) {
+  Random random(4);
+  const PlanePatch patch = random_patch(random);
+  ExpectedPoint expected;
+  float sums[3] = {};
+  for (int c = 0; c < kPlaneCount; ++c) {
+    expected.r[static_cast<std::size_t>(c)] = 5.0 + c;
+    sums[0] += 0.5f * patch.gx2[c] * static_cast<float>(5 + c);
+    sums[1] += 0.5f * patch.gy2[c] * static_cast<float>(5 + c);
+    sums[2] += static_cast<float>((5 + c) * (5 + c));
+  }
+  const PointResiduals out = {&sums[0], &sums[1], &sums[2]};
+  EXPECT_TRUE(is_near(out, 0, expected, patch, kResidualBound));
+  for (float& sum : sums) {
+    const float right = sum;
+    sum += 25.0f;  // 8 · 127.5 · 0.0234 is the most that may be allowed
+    EXPECT_FALSE(is_near(out, 0, expected, patch, kResidualBound));
+    sum = right;
   }
 }
 
@@ -198,7 +219,8 @@ TEST_P(EachSampleResiduals, EqualTheOracleToTheRoundingOfPositionsUnderEveryMoti
       SCOPED_TRACE(testing::Message() << "u " << expected.u << " v " << expected.v);
       ASSERT_EQ(out.squares[i] >= 0.0f, expected.is_inside);
       ++(expected.is_inside ? inside : outside);
-      if (expected.is_inside) expect_near(out, i, expected, points.patches[i], kBound);
+      if (!expected.is_inside) continue;
+      ASSERT_TRUE(is_near(out, i, expected, points.patches[i], kBound));
     }
     ASSERT_EQ(returned, visible);
   }
