@@ -27,7 +27,9 @@ bool has_avx2(const CpuFeatures& cpu) {
   return cpu.sse41 && cpu.avx2;
 }
 
-void overwrite_sse41(KernelTable&) {}
+void overwrite_sse41(KernelTable& table) {
+  table.halve = halve_sse41;
+}
 
 // A kernel without a wider variant keeps the narrower one.
 void overwrite_avx2(KernelTable& table) {
