@@ -28,6 +28,7 @@ bool has_avx2(const CpuFeatures& cpu) {
 }
 
 void overwrite_sse41(KernelTable& table) {
+  table.remap_area = remap_area_sse41;
   table.halve = halve_sse41;
   table.bit_planes = bit_planes_sse41;
   table.saliency = saliency_sse41;
