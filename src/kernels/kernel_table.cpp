@@ -32,6 +32,7 @@ void overwrite_sse41(KernelTable& table) {
   table.halve = halve_sse41;
   table.bit_planes = bit_planes_sse41;
   table.saliency = saliency_sse41;
+  table.sample_residuals = sample_residuals_sse41;
 }
 
 // A kernel without a wider variant keeps the narrower one.
