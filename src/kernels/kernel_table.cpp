@@ -33,6 +33,8 @@ void overwrite_sse41(KernelTable& table) {
   table.bit_planes = bit_planes_sse41;
   table.saliency = saliency_sse41;
   table.sample_residuals = sample_residuals_sse41;
+  table.hamming_row = hamming_row_sse41;
+  table.semi_global_row = semi_global_row_sse41;
   table.match_codes = match_codes_sse41;
   table.compare_patch = compare_patch_sse41;
 }
