@@ -59,7 +59,9 @@ void overwrite_avx2(KernelTable& table) {
 bool has_neon(const CpuFeatures& cpu) {
   return cpu.neon;
 }
-void overwrite_neon(KernelTable&) {}
+void overwrite_neon(KernelTable& table) {
+  table.bit_planes = bit_planes_neon;
+}
 #endif
 
 // What this build holds, from slowest to fastest.
