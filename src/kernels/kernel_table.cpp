@@ -63,6 +63,8 @@ void overwrite_neon(KernelTable& table) {
   table.bit_planes = bit_planes_neon;
   table.saliency = saliency_neon;
   table.sample_residuals = sample_residuals_neon;
+  table.match_codes = match_codes_neon;
+  table.compare_patch = compare_patch_neon;
 }
 #endif
 
