@@ -60,6 +60,7 @@ bool has_neon(const CpuFeatures& cpu) {
   return cpu.neon;
 }
 void overwrite_neon(KernelTable& table) {
+  table.remap_area = remap_area_neon;
   table.bit_planes = bit_planes_neon;
   table.saliency = saliency_neon;
   table.sample_residuals = sample_residuals_neon;
