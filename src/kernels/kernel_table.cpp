@@ -64,6 +64,8 @@ void overwrite_neon(KernelTable& table) {
   table.bit_planes = bit_planes_neon;
   table.saliency = saliency_neon;
   table.sample_residuals = sample_residuals_neon;
+  table.hamming_row = hamming_row_neon;
+  table.semi_global_row = semi_global_row_neon;
   table.match_codes = match_codes_neon;
   table.compare_patch = compare_patch_neon;
 }
