@@ -61,6 +61,7 @@ bool has_neon(const CpuFeatures& cpu) {
 }
 void overwrite_neon(KernelTable& table) {
   table.remap_area = remap_area_neon;
+  table.halve = halve_neon;
   table.bit_planes = bit_planes_neon;
   table.saliency = saliency_neon;
   table.sample_residuals = sample_residuals_neon;
