@@ -60,14 +60,15 @@ struct SpreadTable {
 constexpr SpreadTable kSpread;
 
 void smooth_down_row(const DownRow& row) {
-  for (int x = 0; x < row.width; ++x) {
+  const int width = row.width;  // a byte that is written might have been part of it
+  for (int x = 0; x < width; ++x) {
     std::memcpy(row.out + x * kPlaneCount, kSpread.bytes[row.codes[x]], kPlaneCount);
   }
   for (int pass = 0; pass < kPasses; ++pass) {
     std::uint8_t* __restrict out = row.out;
     std::uint8_t* __restrict older = row.older[pass];
     const std::uint8_t* __restrict newer = row.newer[pass];
-    for (int i = 0; i < row.width * kPlaneCount; ++i) {
+    for (int i = 0; i < width * kPlaneCount; ++i) {
       const std::uint8_t m = out[i];
       out[i] = average(average(older[i], m), newer[i]);
       older[i] = m;

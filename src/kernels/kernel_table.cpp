@@ -29,6 +29,15 @@ bool has_avx2(const CpuFeatures& cpu) {
 
 void overwrite_sse41(KernelTable& table) {
   table.take_patch = take_patch_sse41;
+  table.remap_area = remap_area_sse41;
+  table.halve = halve_sse41;
+  table.bit_planes = bit_planes_sse41;
+  table.saliency = saliency_sse41;
+  table.sample_residuals = sample_residuals_sse41;
+  table.hamming_row = hamming_row_sse41;
+  table.semi_global_row = semi_global_row_sse41;
+  table.match_codes = match_codes_sse41;
+  table.compare_patch = compare_patch_sse41;
 }
 
 // A kernel without a wider variant keeps the narrower one.
@@ -51,7 +60,18 @@ void overwrite_avx2(KernelTable& table) {
 bool has_neon(const CpuFeatures& cpu) {
   return cpu.neon;
 }
-void overwrite_neon(KernelTable&) {}
+void overwrite_neon(KernelTable& table) {
+  table.remap_area = remap_area_neon;
+  table.halve = halve_neon;
+  table.bit_planes = bit_planes_neon;
+  table.saliency = saliency_neon;
+  table.sample_residuals = sample_residuals_neon;
+  table.hamming_row = hamming_row_neon;
+  table.semi_global_row = semi_global_row_neon;
+  table.match_codes = match_codes_neon;
+  table.compare_patch = compare_patch_neon;
+  table.take_patch = take_patch_neon;
+}
 #endif
 
 // What this build holds, from slowest to fastest.

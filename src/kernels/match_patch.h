@@ -22,6 +22,7 @@ using MatchCodesFn = void(const std::uint8_t* left, std::ptrdiff_t left_stride,
                           const std::uint8_t* right, std::ptrdiff_t right_stride, int count,
                           int* cost);
 MatchCodesFn match_codes_ref;
+MatchCodesFn match_codes_sse41;
 MatchCodesFn match_codes_avx2;
 MatchCodesFn match_codes_neon;
 

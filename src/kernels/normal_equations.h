@@ -29,9 +29,9 @@ struct NormalSums {
 using NormalEquationsFn = void(const TemplatePoints& points, const PointResiduals& residuals,
                                float focal_px, float inverse_scale, NormalSums& sums);
 
+// Vectors of four lanes were tried: the reference compiles to just that, and SSE4.1 came out at
+// 0.95 times its speed, NEON at 1.2 times its instructions.
 NormalEquationsFn normal_equations_ref;
-NormalEquationsFn normal_equations_sse41;
 NormalEquationsFn normal_equations_avx2;
-NormalEquationsFn normal_equations_neon;
 
 }  // namespace darkling

@@ -19,7 +19,8 @@ void saliency_ref(ImageView<const std::uint8_t> planes, ImageView<std::uint16_t>
     out[dst.width - 1] = 0;
     for (int x = 1; x < dst.width - 1; ++x) {
       int sum = 0;
-      for (int i = x * kPlaneCount; i < (x + 1) * kPlaneCount; ++i) {
+      for (int c = 0; c < kPlaneCount; ++c) {
+        const int i = x * kPlaneCount + c;
         sum +=
             std::abs(here[i + kPlaneCount] - here[i - kPlaneCount]) + std::abs(below[i] - above[i]);
       }
