@@ -37,6 +37,7 @@ constexpr std::array kVerbs = std::to_array<Verb>({
     {"replay", "Run the odometry over a recording or a synthetic scene", declare_replay},
     {"render", "Write a synthetic stereo recording with exact truth", declare_render},
     {"eval", "Compare an estimated trajectory with the true one", declare_eval},
+    {"bench", "Measure kernels and stages on this machine", declare_bench},
 });
 
 int report_error(const Error& error) {
