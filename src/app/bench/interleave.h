@@ -22,7 +22,7 @@ struct InterleavePlan {
 };
 
 // Times tasks in turns, one sample of each a round, so that whatever disturbs the machine for a
-// while disturbs all of them alike. Every task has been called before its first sample.
+// while disturbs all of them alike. Every sample is preceded by a call that does not count.
 // Time is what the thread had of the processor, and samples are short: on a busy machine most of
 // them then lie between two changes of process, and the median is one of those.
 [[nodiscard]] std::vector<Timing> measure_interleaved(std::span<const std::function<void()>> tasks,
