@@ -25,6 +25,7 @@ StageTimes summarise(const std::string& name, std::span<const PlayedFrame> frame
 
 std::vector<StageTimes> summarise_stages(std::span<const PlayedFrame> frames) {
   std::vector<StageTimes> stages;
+  stages.reserve(kStageCount + 2);
   for (int stage = 0; stage < kStageCount; ++stage) {
     stages.push_back(summarise(kStageNames[stage], frames,
                                [stage](const PlayedFrame& f) { return f.stage_us[stage]; }));
