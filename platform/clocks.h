@@ -11,6 +11,10 @@ namespace darkling {
 // CLOCK_REALTIME. May step; only for labels.
 [[nodiscard]] EpochTime read_epoch_clock();
 
+// What the calling thread has had of the processor: does not grow while others have it. Costs a
+// call of the kernel: 0.5 us on a virtual machine where the other two cost 0.02.
+[[nodiscard]] Duration read_thread_cpu_time();
+
 // Sleeps until `wake_at`, or until a signal arrives.
 // @return true when `wake_at` was reached.
 [[nodiscard]] bool sleep_until(MonotonicTime wake_at);

@@ -28,6 +28,10 @@ EpochTime read_epoch_clock() {
   return EpochTime{read_clock(CLOCK_REALTIME)};
 }
 
+Duration read_thread_cpu_time() {
+  return read_clock(CLOCK_THREAD_CPUTIME_ID);
+}
+
 bool sleep_until(MonotonicTime wake_at) {
   timespec until = {};
   until.tv_sec = to_ns(wake_at) / kNsPerSecond;

@@ -38,6 +38,7 @@ constexpr std::array kVerbs = std::to_array<Verb>({
     {"render", "Write a synthetic stereo recording with exact truth", declare_render},
     {"check", "Say what would be wrong before a start, and what memory it takes", declare_check},
     {"eval", "Compare an estimated trajectory with the true one", declare_eval},
+    {"bench", "Measure kernels and stages on this machine", declare_bench},
 });
 
 int report_error(const Error& error) {

@@ -1,34 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/kernel_bench.h"
-
+// Every kernel of every table of this processor, as KERNEL/ISA/WIDTHxHEIGHT, with the inputs that
+// `darkling bench` measures them with; so Google Benchmark's filters and comparisons can be used.
+#include <cstdio>
 #include <string>
+#include <vector>
 
-#include "support/kernel_cases.h"
+#include <benchmark/benchmark.h>
 
-namespace darkling::bench {
+#include "app/bench/kernel_workloads.h"
+#include "platform/cpu_features.h"
 
-bool for_each_table_and_size(const char* kernel, KernelBench run) {
-  constexpr struct {
-    int width;
-    int height;
-  } kSizes[] = {{160, 120}, {320, 240}, {640, 480}};
-  for (const auto& size : kSizes) {
-    for (const KernelTable& table : test::available_tables()) {
-      const std::string name = std::string(kernel) + "/" + table.name + "/" +
-                               std::to_string(size.width) + "x" + std::to_string(size.height);
-      benchmark::RegisterBenchmark(name.c_str(), [run, table, size](benchmark::State& state) {
-        run(state, table, size.width, size.height);
-      });
+namespace darkling {
+namespace {
+
+constexpr struct {
+  int width;
+  int height;
+} kSizes[] = {{160, 120}, {320, 240}, {640, 480}};
+constexpr int kPoints = 1000;
+
+void bench(benchmark::State& state, const KernelWorkload& workload, const KernelTable& table) {
+  for (auto _ : state) {
+    workload.run(table);
+    benchmark::ClobberMemory();
+  }
+  const double units = static_cast<double>(state.iterations()) * workload.units;
+  state.counters[std::string("time_per_") + name_of(workload.kernel).unit] =
+      benchmark::Counter(units, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["bytes_per_second"] =
+      benchmark::Counter(units * workload.cost.bytes, benchmark::Counter::kIsRate);
+}
+
+void add_benchmarks(const KernelWorkloads& workloads, const std::vector<KernelTable>& tables) {
+  const std::string size =
+      std::to_string(workloads.width()) + "x" + std::to_string(workloads.height());
+  for (const KernelWorkload& workload : workloads.all()) {
+    for (const KernelTable& table : tables) {
+      const std::string name =
+          std::string(name_of(workload.kernel).name) + "/" + table.name + "/" + size;
+      benchmark::RegisterBenchmark(
+          name.c_str(), [&workload, &table](benchmark::State& s) { bench(s, workload, table); });
     }
   }
-  return true;
 }
 
-void report_per_pixel(benchmark::State& state, int pixels, int bytes_per_pixel) {
-  const auto total_pixels = static_cast<double>(pixels * state.iterations());
-  state.SetBytesProcessed(state.iterations() * pixels * bytes_per_pixel);
-  state.counters["time_per_px"] =
-      benchmark::Counter(total_pixels, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+int run(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  const std::vector<KernelTable> tables = available_tables(detect_cpu_features());
+  std::vector<KernelWorkloads> all;
+  all.reserve(std::size(kSizes));
+  for (const auto& size : kSizes) {
+    auto workloads = KernelWorkloads::create_rendered(size.width, size.height, kPoints);
+    if (!workloads) {
+      std::fprintf(stderr, "%s\n", workloads.error().message.c_str());
+      return 1;
+    }
+    add_benchmarks(all.emplace_back(std::move(*workloads)), tables);
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
 }
 
-}  // namespace darkling::bench
+}  // namespace
+}  // namespace darkling
+
+int main(int argc, char** argv) {
+  return darkling::run(argc, argv);
+}
