@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds everything and runs every test. The last line is the verdict.
-# Arguments go to ctest: `./test.sh -L kernels` runs one kind.
+# Installs what is missing, builds everything and runs every test, then those of the ARM builds under
+# emulation. The last line is the verdict.
+# Arguments go to ctest: `./test.sh -L kernels` runs one kind, and of the native build only.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -13,5 +14,11 @@ log=build/release/ctest.log
 status=0
 ctest --preset release --parallel "$(nproc)" --no-tests=error "$@" | tee "$log" || status=$?
 
-grep -E '^[0-9]+% tests passed' "$log" || echo "No test ran to its end."
+verdict="$(grep -E '^[0-9]+% tests passed' "$log" || echo "No test ran to its end.")"
+if [[ $status -eq 0 && $# -eq 0 ]]; then
+  # When it fails, its own last line is the verdict.
+  tests/cross.sh || exit $?
+  echo "native:"
+fi
+echo "$verdict"
 exit "$status"

@@ -4,14 +4,16 @@
 #
 #   deploy/install-deps.sh build   what building and running needs
 #   deploy/install-deps.sh         the same, and what the tests need
+#   deploy/install-deps.sh cross   the same, and what cross builds need
 set -euo pipefail
 
 here="$(cd "$(dirname "$0")" && pwd)"
 case "${1:-test}" in
   build) groups='^build$' ;;
   test) groups='^(build|test)$' ;;
+  cross) groups='^(build|test|cross)$' ;;
   *)
-    echo "install-deps.sh: unknown group \`$1\`; use build or test" >&2
+    echo "install-deps.sh: unknown group \`$1\`; use build, test or cross" >&2
     exit 64
     ;;
 esac

@@ -37,7 +37,7 @@ std::array<float, kQuantiles> make_normal_quantiles() {
 
 float normal(std::uint64_t bits) {
   static const std::array<float, kQuantiles> kTable = make_normal_quantiles();
-  return kTable[bits >> 52];
+  return kTable[static_cast<std::size_t>(bits >> 52)];
 }
 
 // Poisson counts by adding up the distribution until it passes a uniform number.

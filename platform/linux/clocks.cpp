@@ -34,8 +34,8 @@ Duration read_thread_cpu_time() {
 
 bool sleep_until(MonotonicTime wake_at) {
   timespec until = {};
-  until.tv_sec = to_ns(wake_at) / kNsPerSecond;
-  until.tv_nsec = to_ns(wake_at) % kNsPerSecond;
+  until.tv_sec = static_cast<time_t>(to_ns(wake_at) / kNsPerSecond);
+  until.tv_nsec = static_cast<long>(to_ns(wake_at) % kNsPerSecond);
   return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != EINTR;
 }
 

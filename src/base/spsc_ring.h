@@ -26,7 +26,7 @@ class SpscRing {
   [[nodiscard]] bool try_push(T&& value) {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_.load(std::memory_order_acquire) == N) return false;
-    items_[end % N] = std::move(value);
+    items_[place(end)] = std::move(value);
     end_.store(end + 1, std::memory_order_release);
     return true;
   }
@@ -36,7 +36,7 @@ class SpscRing {
     const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_.load(std::memory_order_acquire)) return std::nullopt;
     // Leaves a default element behind: what a moved-from one may still own goes here and now.
-    std::optional<T> value(std::exchange(items_[begin % N], T()));
+    std::optional<T> value(std::exchange(items_[place(begin)], T()));
     begin_.store(begin + 1, std::memory_order_release);
     return value;
   }
@@ -56,6 +56,11 @@ class SpscRing {
   [[nodiscard]] static constexpr std::size_t capacity() { return N; }
 
  private:
+  // Where the element with this number lies; smaller than N, so it fits a 32-bit size_t too.
+  static constexpr std::size_t place(std::uint64_t number) {
+    return static_cast<std::size_t>(number % N);
+  }
+
   // Counts since the start; 64 bits do not wrap. Each on its own cache line: the two threads write
   // one each.
   static constexpr std::size_t kCacheLine = 64;

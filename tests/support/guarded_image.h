@@ -52,7 +52,8 @@ class GuardedImage {
     const std::ptrdiff_t first = layout.guard == GuardSide::kBehindLastRow
                                      ? capacity - layout.distance_to_guard - image_elements()
                                      : layout.distance_to_guard;
-    T* elements = reinterpret_cast<T*>(memory_.bytes().data());
+    void* page = memory_.bytes().data();  // aligned for every T
+    T* elements = static_cast<T*>(page);
     view_ = {elements + first, layout.width, layout.height, stride()};
   }
 
