@@ -125,7 +125,8 @@ __m256 add_parts(const std::int32_t parts[kPointLanes][4], float unit) {
 
 int sample_residuals_avx2(const TemplatePoints& points, const PointWarp& warp,
                           ImageView<const std::uint8_t> planes, const PointResiduals& out) {
-  const float u_end = static_cast<float>(planes.width / kPlaneCount - 2);
+  const int width = planes.width / kPlaneCount;
+  const float u_end = static_cast<float>(width - 2);
   const float v_end = static_cast<float>(planes.height - 2);
   int visible = 0;
   Sums sums = {};

@@ -45,7 +45,8 @@ Weights bilinear_weights(const Position& p) {
 
 int sample_residuals_ref(const TemplatePoints& points, const PointWarp& warp,
                          ImageView<const std::uint8_t> planes, const PointResiduals& out) {
-  const float u_end = static_cast<float>(planes.width / kPlaneCount - 2);
+  const int width = planes.width / kPlaneCount;
+  const float u_end = static_cast<float>(width - 2);
   const float v_end = static_cast<float>(planes.height - 2);
   int visible = 0;
   for (int i = 0; i < round_up_to_lanes(points.count); ++i) {

@@ -8,7 +8,7 @@
 namespace darkling {
 namespace {
 
-constexpr int D = kDisparities;
+constexpr int kD = kDisparities;
 
 __m256i load(const void* from) {
   return _mm256_loadu_si256(static_cast<const __m256i*>(from));
@@ -19,16 +19,16 @@ void store(void* to, __m256i value) {
 
 // The vector that begins at D - 1 - x is 255 where d > x.
 struct BeyondTable {
-  std::uint8_t bytes[2 * D];
+  std::uint8_t bytes[2 * kD];
   constexpr BeyondTable() : bytes() {
-    for (int i = 0; i < 2 * D; ++i) bytes[i] = i < D ? 0 : 255;
+    for (int i = 0; i < 2 * kD; ++i) bytes[i] = i < kD ? 0 : 255;
   }
 };
 constexpr BeyondTable kBeyond;
 
 // 255 for the disparities that reach beyond the right image from column x.
 __m256i beyond(int x) {
-  return load(kBeyond.bytes + D - 1 - (x < D - 1 ? x : D - 1));
+  return load(kBeyond.bytes + kD - 1 - (x < kD - 1 ? x : kD - 1));
 }
 
 __m256i count_bits(__m256i bytes) {
@@ -109,8 +109,8 @@ PathAbove path_above(const PathRows& paths, int direction) {
 
 // Hamming distances of one column of pixels, summed over the three rows.
 __m256i sum_column(const std::uint8_t* const hamming[3], int x) {
-  return _mm256_add_epi8(_mm256_add_epi8(load(hamming[0] + x * D), load(hamming[1] + x * D)),
-                         load(hamming[2] + x * D));
+  return _mm256_add_epi8(_mm256_add_epi8(load(hamming[0] + x * kD), load(hamming[1] + x * kD)),
+                         load(hamming[2] + x * kD));
 }
 
 // 16-bit numbers, in the order of the bytes.
@@ -140,15 +140,15 @@ void walk_right(const std::uint8_t* const hamming[3], const Penalties& p, const 
     const __m256i cost = _mm256_add_epi8(_mm256_add_epi8(left, here), right);
     left = here;
     here = right;
-    store(costs + x * D, cost);
+    store(costs + x * kD, cost);
     const __m256i a = from_left.step(x, cost, p);
     const __m256i b = from_above.step(x, cost, p);
     const __m256i c = from_right.step(x, cost, p);
     const __m256i d = along.step(cost, p);
-    store(sums + x * D, _mm256_add_epi16(_mm256_add_epi16(low_half(a), low_half(b)),
-                                         _mm256_add_epi16(low_half(c), low_half(d))));
-    store(sums + x * D + D / 2, _mm256_add_epi16(_mm256_add_epi16(high_half(a), high_half(b)),
-                                                 _mm256_add_epi16(high_half(c), high_half(d))));
+    store(sums + x * kD, _mm256_add_epi16(_mm256_add_epi16(low_half(a), low_half(b)),
+                                          _mm256_add_epi16(low_half(c), low_half(d))));
+    store(sums + x * kD + kD / 2, _mm256_add_epi16(_mm256_add_epi16(high_half(a), high_half(b)),
+                                                   _mm256_add_epi16(high_half(c), high_half(d))));
   }
 }
 
@@ -205,15 +205,15 @@ void walk_left(const Penalties& p, int width, const StereoRow& row) {
   PathAlong along;
   RightWinners right;
   for (int x = width - 1; x >= 0; --x) {
-    const __m256i path = along.step(load(local.cost + x * D), p);
-    std::uint16_t* const sum = local.sum + x * D;
+    const __m256i path = along.step(load(local.cost + x * kD), p);
+    std::uint16_t* const sum = local.sum + x * kD;
     const __m256i low = _mm256_add_epi16(load(sum), low_half(path));
-    const __m256i high = _mm256_add_epi16(load(sum + D / 2), high_half(path));
+    const __m256i high = _mm256_add_epi16(load(sum + kD / 2), high_half(path));
     store(sum, low);
-    store(sum + D / 2, high);
+    store(sum + kD / 2, high);
     const Keys keys = make_keys(low, high);
     local.right_winner[width - 1 - x] = right.take(keys);
-    local.left_winner[x] = x < D - 1 ? least_inside(keys, x) : least_word(keys.low, keys.high);
+    local.left_winner[x] = x < kD - 1 ? least_inside(keys, x) : least_word(keys.low, keys.high);
   }
 }
 
@@ -226,7 +226,7 @@ void hamming_row_avx2(const std::uint8_t* left, const std::uint8_t* right_revers
     const __m256i code = _mm256_set1_epi8(static_cast<char>(left[x]));
     const __m256i differ = _mm256_xor_si256(code, load(right_reversed + width - 1 - x));
     const __m256i bits = count_bits(differ);
-    store(cost + x * D, x < D - 1 ? _mm256_blendv_epi8(bits, all, beyond(x)) : bits);
+    store(cost + x * kD, x < kD - 1 ? _mm256_blendv_epi8(bits, all, beyond(x)) : bits);
   }
 }
 

@@ -10,7 +10,7 @@ namespace darkling {
 
 namespace {
 
-constexpr int D = kDisparities;
+constexpr int kD = kDisparities;
 constexpr int kWindow = 3;
 // In bits of the window's Hamming distance (8 a pixel, 72 in all).
 constexpr SemiGlobalPenalties kPenalties = {.small_step = 8, .large_step = 32};
@@ -34,16 +34,16 @@ RowOutcome check_winners(const StereoRow& row, int width, float* out) {
   RowOutcome outcome;
   for (int x = 0; x < width; ++x) {
     const int winner = row.left_winner[x];
-    const int d = winner % D;
-    const int d_right = row.right_winner[width - 1 - (x - d)] % D;
+    const int d = winner % kD;
+    const int d_right = row.right_winner[width - 1 - (x - d)] % kD;
     // At the last disparity the minimum may lie beyond what was searched.
-    const bool is_known = (d != D - 1) & (std::abs(d_right - d) <= 1);
-    const bool has_neighbours = (d > 0) & (d < std::min(x, D - 1));
-    const std::uint16_t* sum = row.sum + x * D + (has_neighbours ? d : 1);
+    const bool is_known = (d != kD - 1) & (std::abs(d_right - d) <= 1);
+    const bool has_neighbours = (d > 0) & (d < std::min(x, kD - 1));
+    const std::uint16_t* sum = row.sum + x * kD + (has_neighbours ? d : 1);
     const float offset = has_neighbours ? equiangular_offset(sum[-1], sum[0], sum[1]) : 0.0f;
     out[x] = is_known ? static_cast<float>(d) + offset : kNoDisparity;
     outcome.known += is_known ? 1 : 0;
-    outcome.cost += x >= D - 1 ? winner / D : 0;
+    outcome.cost += x >= kD - 1 ? winner / kD : 0;
   }
   return outcome;
 }
@@ -58,7 +58,7 @@ int stereo_level(int width_px, int level_count) {
 
 StereoMatcher allocate_stereo_matcher(int width_px, Arena& arena) {
   StereoMatcher m;
-  const std::size_t row_size = std::size_t(width_px) * D;
+  const std::size_t row_size = std::size_t(width_px) * kD;
   m.paths.width = width_px;
   for (int direction = 0; direction < 3; ++direction) {
     for (int parity = 0; parity < 2; ++parity) {
@@ -69,7 +69,7 @@ StereoMatcher allocate_stereo_matcher(int width_px, Arena& arena) {
     }
   }
   m.hamming_rows = arena.allocate<std::uint8_t>(kWindow * row_size, "stereo Hamming rows").data();
-  m.right_reversed = arena.allocate<std::uint8_t>(width_px + D, "stereo right codes").data();
+  m.right_reversed = arena.allocate<std::uint8_t>(width_px + kD, "stereo right codes").data();
   m.row.cost = arena.allocate<std::uint8_t>(row_size, "stereo costs").data();
   m.row.sum = arena.allocate<std::uint16_t>(row_size, "stereo path sums").data();
   m.row.left_winner = arena.allocate<std::uint16_t>(width_px, "stereo left winners").data();
@@ -84,7 +84,7 @@ double match_stereo(const KernelTable& kernels, ImageView<const std::uint8_t> le
   const int height = left_codes.height;
   CHECK(m.paths.width == width, "the matcher was allocated for another width");
   CHECK(disparity.has_size(width, height), "one disparity a code");
-  const auto hamming_row = [&](int y) { return m.hamming_rows + (y % kWindow) * width * D; };
+  const auto hamming_row = [&](int y) { return m.hamming_rows + (y % kWindow) * width * kD; };
   const auto compare_row = [&](int y) {
     std::reverse_copy(right_codes.row(y), right_codes.row(y) + width, m.right_reversed);
     kernels.hamming_row(left_codes.row(y), m.right_reversed, width, hamming_row(y));
@@ -102,7 +102,7 @@ double match_stereo(const KernelTable& kernels, ImageView<const std::uint8_t> le
     known += outcome.known;
     cost += outcome.cost;
   }
-  const double compared = static_cast<double>(std::max(width - D + 1, 1)) * height;
+  const double compared = static_cast<double>(std::max(width - kD + 1, 1)) * height;
   m.mean_cost = static_cast<double>(cost) / compared;
   return static_cast<double>(known) / (static_cast<double>(width) * height);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vo/keyframe_template.h"
@@ -22,11 +23,35 @@ std::int16_t strength(std::uint16_t saliency, int row) {
   return static_cast<std::int16_t>((saliency >> 1) * kStripRows + (kStripRows - 1 - row));
 }
 
+// Whether each pixel of row v may stand for the finer pixels that became part of it: the eyes agree
+// on all its neighbours too, and those lie on one surface. Beside others, the search that goes on
+// from here picks the wrong side of an edge.
+using SteadyRow = std::array<bool, kMaxStereoWidth>;
+void find_steady(ImageView<const float> disparity, int v, SteadyRow& is_steady) {
+  constexpr float kSameSurfacePx = 1.5f;
+  const float* rows[3] = {disparity.row(std::max(v - 1, 0)), disparity.row(v),
+                          disparity.row(std::min(v + 1, disparity.height - 1))};
+  std::array<float, kMaxStereoWidth> least;  // of the three rows; below 0 where one is unknown
+  std::array<float, kMaxStereoWidth> greatest;
+  for (int u = 0; u < disparity.width; ++u) {
+    least[u] = std::min(std::min(rows[0][u], rows[1][u]), rows[2][u]);
+    greatest[u] = std::max(std::max(rows[0][u], rows[1][u]), rows[2][u]);
+  }
+  for (int u = 0; u < disparity.width; ++u) {
+    const int left = std::max(u - 1, 0);
+    const int right = std::min(u + 1, disparity.width - 1);
+    const float low = std::min(std::min(least[left], least[u]), least[right]);
+    const float high = std::max(std::max(greatest[left], greatest[u]), greatest[right]);
+    is_steady[u] = low >= 0.0f && high - low <= kSameSurfacePx;
+  }
+}
+
 // No pixel without a disparity may be chosen. Pixels that no disparity stands for (the odd last
 // column or row of an image that was halved) have none.
 void clear_unknown(const DisparityPyramid::At& disparity, ImageView<std::uint16_t> saliency) {
   const int side = 1 << disparity.halvings;
   const int width = std::min(disparity.disparity.width, saliency.width >> disparity.halvings);
+  SteadyRow is_usable = {};
   for (int y = 0; y < saliency.height; ++y) {
     const int v = y >> disparity.halvings;
     std::uint16_t* out = saliency.row(y);
@@ -34,9 +59,11 @@ void clear_unknown(const DisparityPyramid::At& disparity, ImageView<std::uint16_
       std::fill_n(out, saliency.width, std::uint16_t{0});
       continue;
     }
+    if (disparity.halvings > 0 && y % side == 0) find_steady(disparity.disparity, v, is_usable);
     const float* known = disparity.disparity.row(v);
     for (int u = 0; u < width; ++u) {
-      if (known[u] < 0.0f) std::fill_n(out + u * side, side, std::uint16_t{0});
+      const bool is_clear = disparity.halvings > 0 ? is_usable[u] : known[u] >= 0.0f;
+      if (!is_clear) std::fill_n(out + u * side, side, std::uint16_t{0});
     }
     std::fill(out + width * side, out + saliency.width, std::uint16_t{0});
   }

@@ -34,7 +34,7 @@ TEST(Bench, GivesTheSameAsJson) {
   const auto json = run_for_json({"--size", "64x48", "--kernels", "ref"});
   EXPECT_EQ(json["kernels"]["width"], 64);
   EXPECT_EQ(json["kernels"]["height"], 48);
-  ASSERT_EQ(json["kernels"]["kernels"].size(), 10u);
+  ASSERT_EQ(json["kernels"]["kernels"].size(), 11u);
   for (const auto& kernel : json["kernels"]["kernels"]) {
     ASSERT_EQ(kernel["variants"].size(), 1u);
     const auto& ref = kernel["variants"][0];

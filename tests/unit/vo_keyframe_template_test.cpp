@@ -119,10 +119,10 @@ TEST_F(SelectPoints, TakesDisparitiesOfAMatchedCoarserLevelToEveryOther) {
   Arena arena(1u << 20);
   DisparityPyramid disparities = allocate_disparities(rig_.width, rig_.height, 3, 1, arena);
   const ImageView<float> coarse = disparities.levels[0];
-  const auto coarse_at = [](int x, int y) { return 0.25f + 0.0625f * float(x + 80 * y); };
+  const auto coarse_at = [](int x, int y) { return 0.25f + 0.0625f * float(x + 10 * y); };
   for (int y = 0; y < coarse.height; ++y) {
     for (int x = 0; x < coarse.width; ++x) {
-      coarse.at(x, y) = x % 5 == 0 ? kNoDisparity : coarse_at(x, y);
+      coarse.at(x, y) = x % 7 == 0 ? kNoDisparity : coarse_at(x, y);
     }
   }
   reduce_disparities(disparities);
@@ -131,11 +131,11 @@ TEST_F(SelectPoints, TakesDisparitiesOfAMatchedCoarserLevelToEveryOther) {
                          stages_.selector());
   };
   for (const PointSelector::Candidate& c : select_on(0)) {
-    ASSERT_NE(c.x / 2 % 5, 0);
+    ASSERT_TRUE(c.x / 2 % 7 >= 2 && c.x / 2 % 7 <= 5) << c.x;  // no unknown neighbour either
     ASSERT_EQ(c.disparity_px, 2.0f * coarse_at(c.x / 2, c.y / 2));
   }
   for (const PointSelector::Candidate& c : select_on(1)) {
-    ASSERT_NE(c.x % 5, 0);
+    ASSERT_NE(c.x % 7, 0);
     ASSERT_EQ(c.disparity_px, coarse_at(c.x, c.y));
   }
   for (const PointSelector::Candidate& c : select_on(2)) {
@@ -144,6 +144,22 @@ TEST_F(SelectPoints, TakesDisparitiesOfAMatchedCoarserLevelToEveryOther) {
     ASSERT_LE(2.0f * c.disparity_px, coarse_at(2 * c.x + 1, 2 * c.y + 1));
   }
   EXPECT_GT(select_on(0).size(), std::size_t{kPoints} / 2);  // or nothing was compared
+}
+
+// From a coarser level: not beside an edge of depth, where the search would pick either side.
+TEST_F(SelectPoints, KeepsClearOfStepsInACoarserDisparityMap) {
+  Arena arena(1u << 20);
+  DisparityPyramid disparities = allocate_disparities(rig_.width, rig_.height, 2, 1, arena);
+  const ImageView<float> coarse = disparities.levels[0];
+  for (int y = 0; y < coarse.height; ++y) {
+    for (int x = 0; x < coarse.width; ++x) coarse.at(x, y) = x < 40 ? 3.0f : 5.0f;
+  }
+  const auto chosen =
+      select_points(kernels_, eye_.pyramid()[0], disparities.at_level(0), stages_.selector());
+  EXPECT_GT(chosen.size(), std::size_t{kPoints} / 2);
+  for (const PointSelector::Candidate& c : chosen) {
+    ASSERT_TRUE(c.x / 2 < 39 || c.x / 2 > 40) << c.x;
+  }
 }
 
 TEST_F(SelectPoints, StaysInsideADisparityMapOfAnOddSizeHalved) {

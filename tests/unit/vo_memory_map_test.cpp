@@ -109,7 +109,7 @@ TEST(MemoryMap, KeepsTheBudgetInEveryCornerOfTheLimits) {
 TEST(MemoryMap, CountsTheBuffersBehindARow) {
   const MemoryMap map = map_memory({}, 320, 240);
   EXPECT_EQ(map.counts[find_buffer_row("area map")], 2);
-  EXPECT_EQ(map.counts[find_buffer_row("disparity")], 1);
+  EXPECT_EQ(map.counts[find_buffer_row("saliency")], 1);
   EXPECT_EQ(find_buffer_row("nothing of this name"), kBufferRows.size());
 }
 
