@@ -38,7 +38,7 @@ packages() {
 # own would hide the real ones.
 keep_what_is_linked() {
   find "$1" -mindepth 1 -maxdepth 1 ! -name lib ! -name usr -exec rm -rf {} +
-  rm -rf "$1"/usr/{bin,games,sbin,src} "$1"/usr/share/{doc,fonts,icons,locale,man}
+  rm -rf "${1:?}"/usr/{bin,games,sbin,src} "${1:?}"/usr/share/{doc,fonts,icons,locale,man}
 }
 
 # Absolute links lead out of the sysroot.
@@ -65,9 +65,10 @@ make_sysroot() {
   # chrootless: the one mode that asks neither for root nor for user namespaces; nothing is run in
   # the new root anyway. A mirror that is named stands alone: without the security archive, which
   # changes daily, two sysroots differ only across point releases. Nothing of it is shipped.
-  mmdebstrap --quiet --mode=chrootless --variant=extract --format=directory \
+  mmdebstrap --mode=chrootless --variant=extract --format=directory \
     --architectures="$arch" --aptopt='Acquire::Retries "3"' \
-    --include="$(packages | paste -sd,)" "$suite" "$dir" "$mirror"
+    --include="$(packages | paste -sd,)" "$suite" "$dir" "$mirror" >"$new.log" 2>&1 \
+    || { cat "$new.log" >&2 && fail 69 "the packages for $arch cannot be fetched from $mirror"; }
   keep_what_is_linked "$dir"
   make_links_relative "$dir"
   choose_alternatives "$dir/usr/lib/$triplet"
@@ -105,7 +106,7 @@ command -v mmdebstrap >/dev/null \
 
 mkdir -p "$(dirname "$dir")"
 new="$(mktemp -d "$dir.XXXXXX")"
-trap 'rm -rf "$new"' EXIT
+trap 'rm -rf "$new" "$new.log"' EXIT
 chmod 755 "$new"
 echo "Making a sysroot for $arch in $dir"
 # Not `make_sysroot || …`: bash would go on after a failure inside it.
