@@ -49,9 +49,4 @@ RemapAreaFn remap_area_sse41;
 RemapAreaFn remap_area_avx2;
 RemapAreaFn remap_area_neon;
 
-// One output pixel of the reference: what variants fall back to where a vector would read past the
-// end of a row.
-[[nodiscard]] std::uint8_t remap_area_pixel(const AreaMap& map, const AreaMapEntry& entry,
-                                            const std::uint8_t* src, std::ptrdiff_t stride);
-
 }  // namespace darkling

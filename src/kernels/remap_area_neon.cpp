@@ -2,13 +2,12 @@
 #include <arm_neon.h>
 
 #include "kernels/remap_area.h"
+#include "kernels/remap_area_steps.h"
 
 // The weights of a row sum to 256, so that a weighted row, at most 255 · 256, fits 16 bits.
 
 namespace darkling {
 namespace {
-
-constexpr int kPixels = 8;  // of the output, a step
 
 // Sums of neighbours, those of `a` first.
 uint16x8_t add_pairs(uint16x8_t a, uint16x8_t b) {
@@ -36,25 +35,8 @@ uint8x8_t load_4_and_4(const std::uint8_t* a, const std::uint8_t* b) {
   return vreinterpret_u8_u32(vset_lane_u32(high, vdup_n_u32(low), 1));
 }
 
-// The source of one image.
-struct Source {
-  const std::uint8_t* pixels;
-  std::ptrdiff_t stride;
-  const std::uint8_t* weights;
-  int taps;
-  // Where the first four rows of a box begin. Rows beyond `taps` have no weight but may lie outside
-  // the image, so the last row stands in.
-  std::ptrdiff_t rows[4];
-};
-
-Source make_source(const AreaMap& map, const ImageView<const std::uint8_t>& src) {
-  Source source = {src.data, src.stride, map.weights, map.taps, {}};
-  for (int j = 0; j < 4; ++j) source.rows[j] = (j < map.taps ? j : map.taps - 1) * src.stride;
-  return source;
-}
-
 // One output pixel with at most four taps: its four weighted rows.
-uint32x4_t weigh_4x4(const Source& s, const AreaMapEntry& e) {
+uint32x4_t weigh_4x4(const RemapSource& s, const AreaMapEntry& e) {
   const std::uint8_t* p = s.pixels + e.y * s.stride + e.x;
   const std::uint8_t* wx = s.weights + e.phase_x * kMaxAreaTaps;
   const std::uint8_t* wy = s.weights + e.phase_y * kMaxAreaTaps;
@@ -68,7 +50,7 @@ uint32x4_t weigh_4x4(const Source& s, const AreaMapEntry& e) {
 
 // One output pixel with any number of taps, the sum of its box in four parts. Reads whole groups of
 // eight columns.
-uint32x4_t weigh_wide(const Source& s, const AreaMapEntry& e) {
+uint32x4_t weigh_wide(const RemapSource& s, const AreaMapEntry& e) {
   const std::uint8_t* wx = s.weights + e.phase_x * kMaxAreaTaps;
   const std::uint8_t* wy = s.weights + e.phase_y * kMaxAreaTaps;
   const std::uint8_t* p = s.pixels + e.y * s.stride + e.x;
@@ -81,18 +63,18 @@ uint32x4_t weigh_wide(const Source& s, const AreaMapEntry& e) {
   return sum;
 }
 
-uint32x4_t weigh(const Source& s, const AreaMapEntry& e) {
+uint32x4_t weigh(const RemapSource& s, const AreaMapEntry& e) {
   return s.taps <= 4 ? weigh_4x4(s, e) : weigh_wide(s, e);
 }
 
 // Four output pixels, rounded.
-uint16x4_t remap_4(const Source& s, const AreaMapEntry* e) {
+uint16x4_t remap_4(const RemapSource& s, const AreaMapEntry* e) {
   const uint32x4_t sums = add_pairs(add_pairs(weigh(s, e[0]), weigh(s, e[1])),
                                     add_pairs(weigh(s, e[2]), weigh(s, e[3])));
   return vrshrn_n_u32(sums, 16);
 }
 
-void remap_8(const Source& s, const AreaMapEntry* e, std::uint8_t* out) {
+void remap_8(const RemapSource& s, const AreaMapEntry* e, std::uint8_t* out) {
   vst1_u8(out, vmovn_u16(vcombine_u16(remap_4(s, e), remap_4(s, e + 4))));
 }
 
@@ -100,28 +82,7 @@ void remap_8(const Source& s, const AreaMapEntry* e, std::uint8_t* out) {
 
 void remap_area_neon(const AreaMap& map, ImageView<const std::uint8_t> src,
                      ImageView<std::uint8_t> dst) {
-  const Source source = make_source(map, src);
-  const int columns_read = map.taps <= 4 ? 4 : (map.taps + 7) / 8 * 8;
-  const int last_x = src.width - columns_read;
-  for (int v = 0; v < dst.height; ++v) {
-    const AreaMapEntry* entries = map.entries.data + v * map.entries.stride;
-    std::uint8_t* out = dst.data + v * dst.stride;
-    int u = 0;
-    for (; u + kPixels <= dst.width; u += kPixels) {
-      bool is_inside = true;
-      for (int i = 0; i < kPixels; ++i) is_inside = is_inside && entries[u + i].x <= last_x;
-      if (is_inside) {
-        remap_8(source, entries + u, out + u);
-        continue;
-      }
-      for (int i = u; i < u + kPixels; ++i) {
-        out[i] = remap_area_pixel(map, entries[i], src.data, src.stride);
-      }
-    }
-    for (; u < dst.width; ++u) {
-      out[u] = remap_area_pixel(map, entries[u], src.data, src.stride);
-    }
-  }
+  remap_area_by_eights(map, src, dst, remap_8);
 }
 
 }  // namespace darkling
