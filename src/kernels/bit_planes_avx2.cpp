@@ -102,26 +102,38 @@ void smooth_down_row(const DownRow& row) {
   }
 }
 
-void smooth_along(const std::uint8_t* in, std::uint8_t* out, int i) {
-  store(out + i, smooth(load(in + i - kPlaneCount), load(in + i), load(in + i + kPlaneCount)));
-}
+// One pass along the row, four pixels at a time.
+struct AlongPass {
+  __m256i here = _mm256_setzero_si256();    // pixels 4k … 4k + 3
+  __m256i before = _mm256_setzero_si256();  // their left neighbours
 
+  // Takes the next four pixels in and gives the smoothed ones before them.
+  __m256i push(__m256i next) {
+    const __m256i middle = _mm256_permute2x128_si256(here, next, 0x21);  // 4k + 2 … 4k + 5
+    const __m256i after = _mm256_alignr_epi8(middle, here, kPlaneCount);
+    const __m256i smoothed = smooth(before, here, after);
+    before = _mm256_alignr_epi8(next, middle, kPlaneCount);
+    here = next;
+    return smoothed;
+  }
+};
+
+// The three passes in one, each four pixels behind the one before: that is twelve. The last nine of
+// them are read from beyond the margin and have no weight.
 void smooth_along_row(const AlongRow& row) {
   const AlongRow local = row;
-  const int bytes = local.width * kPlaneCount;
-  for (int i = -2 * kPlaneCount; i < bytes + 2 * kPlaneCount; i += kBytes) {
-    smooth_along(local.in, local.spare, i);
-  }
-  if (bytes < kBytes) {
-    smooth_along_bytes(local.spare, local.in, -kPlaneCount, bytes + kPlaneCount);
-    smooth_along_bytes(local.in, local.out, 0, bytes);
-    return;
-  }
-  for (int i = -kPlaneCount; i < bytes + kPlaneCount; i += kBytes) {
-    smooth_along(local.spare, local.in, i);
-  }
-  for (int i = 0; i + kBytes <= bytes; i += kBytes) smooth_along(local.in, local.out, i);
-  smooth_along(local.in, local.out, bytes - kBytes);
+  AlongPass passes[3];
+  const auto push = [&passes, &local](int x) {
+    const __m256i in = load(local.in + x * kPlaneCount);
+    return passes[2].push(passes[1].push(passes[0].push(in)));
+  };
+  for (int x = -4; x < 12; x += 4) push(x);
+  int x = 0;
+  for (; x + 4 <= local.width; x += 4) store(local.out + x * kPlaneCount, push(x + 12));
+  if (x == local.width) return;
+  store(local.spare, push(x + 12));
+  __builtin_memcpy(local.out + x * kPlaneCount, local.spare,
+                   static_cast<unsigned>(local.width - x) * kPlaneCount);
 }
 
 }  // namespace
