@@ -16,7 +16,8 @@ constexpr std::array kKeys = std::to_array<ConfigKey>({
      "Width of the thumbnail that is tracked; its height follows. 0 is the source's width.",
      /*may_be_zero=*/true, "kMinWidth, kMaxWidth"},
     {"points_per_level", "", kMinPointsPerLevel, kMaxPointsPerLevel, &C::points_per_level,
-     "Most points the template holds on each level of the pyramid; bounds the time of a frame.",
+     "Most points the template holds on the finest level of the pyramid, and half as many on each "
+     "coarser one; bounds the time of a frame.",
      /*may_be_zero=*/false, "kMinPointsPerLevel, kMaxPointsPerLevel"},
 });
 

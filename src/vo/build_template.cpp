@@ -26,7 +26,8 @@ TemplatePoints allocate_points(int capacity, Arena& arena) {
 KeyframeTemplate allocate_template(int level_count, int points_per_level, Arena& arena) {
   KeyframeTemplate keyframe;
   for (int l = 0; l < level_count; ++l) {
-    const TemplateLevel level = {allocate_points(points_per_level, arena), points_per_level, 0.0f};
+    const int capacity = points_on_level(points_per_level, l);
+    const TemplateLevel level = {allocate_points(capacity, arena), capacity, 0.0f};
     CHECK(keyframe.levels.push_back(level), "more levels than kMaxLevels");
   }
   return keyframe;

@@ -65,7 +65,8 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
   StageTimer timer(read_clock, estimate, Stage::kSelect);
   for (int l = 0; l < static_cast<int>(left.size()); ++l) {
     std::span<PointSelector::Candidate> chosen =
-        select_points(kernels, left[l], disparities.at_level(l), selector);
+        select_points(kernels, left[l], disparities.at_level(l),
+                      selector.for_at_most(keyframe.levels[l].capacity));
     if (l == 0) {
       search_disparities(kernels, left[0], right[0], disparities.dense_level, chosen);
       refine_disparities(kernels, left[0], right[0], chosen);

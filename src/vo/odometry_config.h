@@ -7,7 +7,7 @@ namespace darkling {
 // uses it. Units, ranges and defaults are published by io/config.cpp from one table.
 struct OdometryConfig {
   int width_px = 320;           // thumbnail width; 0 = the source's
-  int points_per_level = 1000;  // template points at most, each pyramid level
+  int points_per_level = 1000;  // template points at most; half as many on coarse levels
 };
 
 }  // namespace darkling

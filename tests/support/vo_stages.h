@@ -70,7 +70,8 @@ class TemplateStages {
   }
   void build(const KernelTable& kernels, const FramePyramid& pyramid) {
     for (int l = 0; l < static_cast<int>(pyramid.size()); ++l) {
-      const auto chosen = select_points(kernels, pyramid[l], disparities_at(l), selector_);
+      const auto chosen = select_points(kernels, pyramid[l], disparities_at(l),
+                                        selector_.for_at_most(keyframe_.levels[l].capacity));
       build_template_level(kernels, chosen, pyramid[l], rig_.baseline_m, keyframe_.levels[l]);
     }
   }
