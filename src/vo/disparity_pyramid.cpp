@@ -2,6 +2,7 @@
 #include "vo/disparity_pyramid.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "base/check.h"
 #include "vo/match_stereo.h"
@@ -10,7 +11,6 @@ namespace darkling {
 
 namespace {
 
-// Orders two numbers. Without branches, so that loops over it compile to vectors.
 void order(float& low, float& high) {
   const float a = low;
   const float b = high;
@@ -19,17 +19,18 @@ void order(float& low, float& high) {
 }
 
 // The median of those of four disparities that are known; of an even number the mean of the two in
-// the middle.
+// the middle. Free of branches: which are known is as good as random.
 float known_median(float a, float b, float c, float d) {
   order(a, b);
   order(c, d);
   order(a, c);
   order(b, d);
-  order(b, c);  // sorted, the unknown ones first
-  float median = d;
-  median = c >= 0.0f ? 0.5f * (c + d) : median;
-  median = b >= 0.0f ? c : median;
-  return a >= 0.0f ? 0.5f * (b + c) : median;
+  order(b, c);
+  const float sorted[4] = {a, b, c, d};  // the unknown ones first
+  const int known = (a >= 0.0f) + (b >= 0.0f) + (c >= 0.0f) + (d >= 0.0f);
+  constexpr std::uint8_t kLower[5] = {3, 3, 2, 2, 1};  // of no known ones, an unknown one
+  constexpr std::uint8_t kUpper[5] = {3, 3, 3, 2, 2};
+  return 0.5f * (sorted[kLower[known]] + sorted[kUpper[known]]);
 }
 
 void reduce_level(ImageView<const float> fine, ImageView<float> coarse) {

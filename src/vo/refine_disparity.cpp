@@ -12,7 +12,8 @@ namespace darkling {
 namespace {
 
 constexpr int kMaxIterations = 5;
-constexpr float kConvergedStepPx = 0.005f;
+// Steps shrink to a tenth and less: what is left after one of this size does not show.
+constexpr float kConvergedStepPx = 0.02f;
 // The matched pixel is right or it is not: refinement that leaves it found something else.
 constexpr float kMaxChangePx = 1.0f;
 // Root mean square difference over the patch's planes beyond which the eyes do not see the same; as

@@ -23,49 +23,56 @@ std::int16_t strength(std::uint16_t saliency, int row) {
   return static_cast<std::int16_t>((saliency >> 1) * kStripRows + (kStripRows - 1 - row));
 }
 
-// Whether each pixel of row v may stand for the finer pixels that became part of it: the eyes agree
-// on all its neighbours too, and those lie on one surface. Beside others, the search that goes on
-// from here picks the wrong side of an edge.
-using SteadyRow = std::array<bool, kMaxStereoWidth>;
-void find_steady(ImageView<const float> disparity, int v, SteadyRow& is_steady) {
+// For each pixel of a level: all bits, or none where no point may be.
+using MaskRow = std::array<std::uint16_t, kMaxWidth>;
+
+void allow_known(const float* disparity, int width, MaskRow& mask) {
+  for (int x = 0; x < width; ++x) mask[x] = disparity[x] >= 0.0f ? 0xffff : 0;
+}
+
+// Allows the finer pixels that became part of one of row v, where the eyes agree on all its
+// neighbours too, and those lie on one surface. Beside others, the search that goes on from here
+// picks the wrong side of an edge.
+void allow_steady(const DisparityPyramid::At& coarse, int v, MaskRow& mask) {
   constexpr float kSameSurfacePx = 1.5f;
-  const float* rows[3] = {disparity.row(std::max(v - 1, 0)), disparity.row(v),
-                          disparity.row(std::min(v + 1, disparity.height - 1))};
+  const ImageView<const float>& disparity = coarse.disparity;
+  const int width = disparity.width;
+  const float* above = disparity.row(std::max(v - 1, 0));
+  const float* here = disparity.row(v);
+  const float* below = disparity.row(std::min(v + 1, disparity.height - 1));
   std::array<float, kMaxStereoWidth> least;  // of the three rows; below 0 where one is unknown
   std::array<float, kMaxStereoWidth> greatest;
-  for (int u = 0; u < disparity.width; ++u) {
-    least[u] = std::min(std::min(rows[0][u], rows[1][u]), rows[2][u]);
-    greatest[u] = std::max(std::max(rows[0][u], rows[1][u]), rows[2][u]);
+  for (int u = 0; u < width; ++u) {
+    least[u] = std::min(std::min(above[u], here[u]), below[u]);
+    greatest[u] = std::max(std::max(above[u], here[u]), below[u]);
   }
-  for (int u = 0; u < disparity.width; ++u) {
+  for (int u = 0; u < width; ++u) {
     const int left = std::max(u - 1, 0);
-    const int right = std::min(u + 1, disparity.width - 1);
+    const int right = std::min(u + 1, width - 1);
     const float low = std::min(std::min(least[left], least[u]), least[right]);
     const float high = std::max(std::max(greatest[left], greatest[u]), greatest[right]);
-    is_steady[u] = low >= 0.0f && high - low <= kSameSurfacePx;
+    const bool is_steady = (low >= 0.0f) & (high - low <= kSameSurfacePx);
+    std::fill_n(&mask[u << coarse.halvings], 1 << coarse.halvings,
+                static_cast<std::uint16_t>(is_steady ? 0xffff : 0));
   }
 }
 
-// No pixel without a disparity may be chosen. Pixels that no disparity stands for (the odd last
-// column or row of an image that was halved) have none.
+// Takes the saliency from pixels that may not be chosen: those without a disparity, and the odd
+// last column or row of an image that was halved, which no disparity stands for.
 void clear_unknown(const DisparityPyramid::At& disparity, ImageView<std::uint16_t> saliency) {
   const int side = 1 << disparity.halvings;
-  const int width = std::min(disparity.disparity.width, saliency.width >> disparity.halvings);
-  SteadyRow is_usable = {};
+  MaskRow mask = {};
   for (int y = 0; y < saliency.height; ++y) {
     const int v = y >> disparity.halvings;
-    std::uint16_t* out = saliency.row(y);
     if (v >= disparity.disparity.height) {
-      std::fill_n(out, saliency.width, std::uint16_t{0});
-      continue;
+      mask.fill(0);
+    } else if (disparity.halvings == 0) {
+      allow_known(disparity.disparity.row(v), saliency.width, mask);
+    } else if (y % side == 0) {
+      allow_steady(disparity, v, mask);
     }
-    if (disparity.halvings > 0 && y % side == 0) find_steady(disparity.disparity, v, is_usable);
-    const float* known = disparity.disparity.row(v);
-    for (int u = 0; u < width; ++u) {
-      const bool is_clear = disparity.halvings > 0 ? is_usable[u] : known[u] >= 0.0f;
-      if (!is_clear) std::fill_n(out + u * side, side, std::uint16_t{0});
-    }
-    std::fill(out + width * side, out + saliency.width, std::uint16_t{0});
+    std::uint16_t* __restrict out = saliency.row(y);
+    for (int x = 0; x < saliency.width; ++x) out[x] = out[x] & mask[x];
   }
 }
 
