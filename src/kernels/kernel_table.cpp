@@ -52,7 +52,6 @@ void overwrite_avx2(KernelTable& table) {
   table.hamming_row = hamming_row_avx2;
   table.semi_global_row = semi_global_row_avx2;
   table.match_codes = match_codes_avx2;
-  table.compare_patch = compare_patch_avx2;
 }
 #endif
 

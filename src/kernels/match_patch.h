@@ -52,7 +52,6 @@ using ComparePatchFn = PatchFit(const std::uint8_t* left, std::ptrdiff_t left_st
                                 int fraction_q12);
 ComparePatchFn compare_patch_ref;
 ComparePatchFn compare_patch_sse41;
-ComparePatchFn compare_patch_avx2;
 ComparePatchFn compare_patch_neon;
 
 }  // namespace darkling
