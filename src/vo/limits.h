@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "kernels/remap_area.h"
 
@@ -30,11 +31,12 @@ inline constexpr std::size_t kMaxStackBytes = std::size_t{32} << 10;
 // The most memory the odometry may claim at start: 8 MiB at 320x240, 24 MiB at 640x480, and on the
 // straight line through both in pixels at every other size.
 [[nodiscard]] constexpr std::size_t memory_budget_bytes(int width_px, int height_px) {
-  constexpr std::size_t kMiB = 1u << 20;
-  constexpr std::size_t kSmallPixels = std::size_t{320} * 240;
-  constexpr std::size_t kStepPixels = std::size_t{640} * 480 - kSmallPixels;
-  const std::size_t pixels = std::size_t(width_px) * std::size_t(height_px);
-  return 8 * kMiB - 16 * kMiB * kSmallPixels / kStepPixels + 16 * kMiB * pixels / kStepPixels;
+  constexpr std::uint64_t kMiB = 1u << 20;  // 64 bits: the products are too large for 32
+  constexpr std::uint64_t kSmallPixels = 320 * 240;
+  constexpr std::uint64_t kStepPixels = 640 * 480 - kSmallPixels;
+  const std::uint64_t pixels = std::uint64_t(width_px) * std::uint64_t(height_px);
+  return static_cast<std::size_t>(8 * kMiB - 16 * kMiB * kSmallPixels / kStepPixels +
+                                  16 * kMiB * pixels / kStepPixels);
 }
 static_assert(memory_budget_bytes(320, 240) == std::size_t{8} << 20);
 static_assert(memory_budget_bytes(640, 480) == std::size_t{24} << 20);
