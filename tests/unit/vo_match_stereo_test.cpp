@@ -47,6 +47,22 @@ TEST(MeasuredDisparity, NoticesATenthOfAPixelAndGrossErrors) {
   EXPECT_EQ(measure_disparity(pair, [](int, int) { return -1.0; }).known_share, 0.0);
 }
 
+TEST(MeasuredDisparity, NoticesTheSameInPoints) {
+  const SlantedPair pair(test::Surface{.d0_px = 6.25, .slope_x = 0.01, .slope_y = 0.02});
+  std::vector<PointSelector::Candidate> points = pair.points(500);
+  ASSERT_GT(points.size(), 300u);
+  const auto measure_with_error = [&](double error_px) {
+    for (PointSelector::Candidate& c : points) {
+      c.disparity_px = static_cast<float>(pair.truth(c.x, c.y) + error_px);
+    }
+    return measure_disparity(pair, points);
+  };
+  EXPECT_NEAR(measure_with_error(0.1).bias_px, 0.1, 1e-5);
+  EXPECT_EQ(measure_with_error(0.1).known_share, 1.0);
+  EXPECT_EQ(measure_with_error(-1.5).bad_share, 1.0);
+  EXPECT_EQ(measure_with_error(-100.0).known_share, 0.0);
+}
+
 // Two eyes with memory for matching them.
 class MatchStereo : public ::testing::Test {
  protected:
