@@ -42,6 +42,7 @@ Odometry::State::MapMemory Odometry::State::allocate_buffers(Arena& from) {
   right = allocate_pyramid(rig, {dense_level + 1, 1, dense_level}, from);
   plane_scratch = allocate_plane_scratch(rig, from);
   matcher = allocate_stereo_matcher(rig.width >> dense_level, from);
+  if (config.stereo == StereoMethod::kBlock) matcher.penalties = kBlockPenalties;
   disparities = allocate_disparities(rig.width, rig.height, levels, dense_level, from);
   selector = allocate_point_selector(rig, config.points_per_level, from);
   residuals = allocate_residuals(config.points_per_level, from);
