@@ -23,6 +23,7 @@ constexpr WordField one_of(std::span<const std::string_view> words) {
 }
 
 // In the order of their enumerations.
+constexpr std::array kDescriptorWords = std::to_array<std::string_view>({"bitplanes", "intensity"});
 constexpr std::array kStereoWords = std::to_array<std::string_view>({"semi_global", "block"});
 
 // name, unit, least, most, field, what it is, whether 0 is allowed besides, limits' names.
@@ -34,6 +35,9 @@ constexpr std::array kKeys = std::to_array<ConfigKey>({
      "Most points the template holds on the finest level of the pyramid, and half as many on each "
      "coarser one; bounds the time of a frame.",
      /*may_be_zero=*/false, "kMinPointsPerLevel, kMaxPointsPerLevel"},
+    {"descriptor", "", 0, 0, one_of<&C::descriptor>(kDescriptorWords),
+     "What is compared between images: bitplanes are the signs of differences of brightness, which "
+     "no exposure changes; intensity is brightness itself and is there to compare with."},
     {"stereo", "", 0, 0, one_of<&C::stereo>(kStereoWords),
      "How a keyframe's disparities are found: semi_global lets neighbours agree, block takes the "
      "least cost of each window by itself and is there to compare with."},

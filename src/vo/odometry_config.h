@@ -3,6 +3,10 @@
 
 namespace darkling {
 
+// What alignment and the sub-pixel step of stereo compare: signs of differences of brightness, or
+// grey levels (vo/compare_intensity.h).
+enum class Descriptor { kBitplanes, kIntensity };
+
 // How disparities are found densely: with the five paths, or by the least cost of a window alone.
 enum class StereoMethod { kSemiGlobal, kBlock };
 
@@ -11,6 +15,7 @@ enum class StereoMethod { kSemiGlobal, kBlock };
 struct OdometryConfig {
   int width_px = 320;           // thumbnail width; 0 = the source's
   int points_per_level = 1000;  // template points at most; half as many on coarse levels
+  Descriptor descriptor = Descriptor::kBitplanes;
   StereoMethod stereo = StereoMethod::kSemiGlobal;
 };
 

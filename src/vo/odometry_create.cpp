@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "vo/check_limits.h"
+#include "vo/compare_intensity.h"
 #include "vo/limits.h"
 #include "vo/odometry_state.h"
 
@@ -67,8 +68,10 @@ Result<std::unique_ptr<Odometry>> Odometry::create(const OdometryConfig& config,
   Arena measuring = Arena::measuring();
   claim_buffers(config, rectified->width, rectified->height, measuring);
 
-  auto state =
-      std::make_unique<State>(config, *rectified, kernels, read_clock, measuring.used_bytes());
+  const bool is_intensity = config.descriptor == Descriptor::kIntensity;
+  auto state = std::make_unique<State>(config, *rectified,
+                                       is_intensity ? compare_intensity(kernels) : kernels,
+                                       read_clock, measuring.used_bytes());
   State& s = *state;
   const State::MapMemory maps = s.allocate_buffers(s.arena);
   CHECK(s.arena.used_bytes() == s.arena.capacity_bytes(), "an arena is as large as was measured");

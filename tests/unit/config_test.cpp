@@ -89,6 +89,8 @@ TEST(LoadConfig, TakesTheWordsOfAnEnumeration) {
   EXPECT_EQ(OdometryConfig{}.stereo, StereoMethod::kSemiGlobal);
   EXPECT_EQ(load_content("stereo: block\n")->stereo, StereoMethod::kBlock);
   EXPECT_EQ(load_setting("stereo=block")->stereo, StereoMethod::kBlock);
+  EXPECT_EQ(OdometryConfig{}.descriptor, Descriptor::kBitplanes);
+  EXPECT_EQ(load_setting("descriptor=intensity")->descriptor, Descriptor::kIntensity);
   EXPECT_EQ(load_setting("stereo=semi_global")->stereo, StereoMethod::kSemiGlobal);
 }
 
@@ -96,6 +98,10 @@ TEST(LoadConfig, ListsTheWordsAndSuggestsOneInPlaceOfAnother) {
   expect_refused(load_content("stereo: blokc\n"), ExitCode::kConfiguration,
                  "rover.yaml:1: key 'stereo': found 'blokc', allowed is semi_global or block, did "
                  "you mean 'block'?");
+  expect_refused(
+      load_setting("descriptor=intensty"), ExitCode::kUsage,
+      "--set: key 'descriptor': found 'intensty', allowed is bitplanes or intensity, did "
+      "you mean 'intensity'?");
   for (const char* value : {"", "1", "true", "[block]", "{a: block}", "BLOCK", "block "}) {
     expect_refused(load_setting("stereo=" + std::string(value)), ExitCode::kUsage,
                    "allowed is semi_global or block");
@@ -135,6 +141,7 @@ TEST(FormatConfig, IsReadBackAsTheSameConfiguration) {
   OdometryConfig config;
   config.width_px = 177;
   config.points_per_level = 321;
+  config.descriptor = Descriptor::kIntensity;
   config.stereo = StereoMethod::kBlock;
   const auto read = load_content(format_config(config));
   ASSERT_TRUE(read) << read.error().message;
