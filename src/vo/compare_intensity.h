@@ -18,6 +18,11 @@ namespace darkling {
 // - the costs of judge.cpp: views that have nothing to do with each other may cost less than
 //   kLostCost, and a change of exposure costs as much as a wrong pose. Keyframes come of overlap
 //   and baseline, and losses of overlap alone.
+//
+// Nothing makes up for brightness that is not constant: that is what is compared. Vignetting, which
+// stays where it is while the scene moves, is enough to go wrong by half a metre in a frame, and
+// did so on every robust scale from 2.4 to 300 medians; without it a rendered quarry is followed as
+// by bit-planes (drift 0.10 and 0.06 %, RPE 0.39 and 0.51 mm).
 [[nodiscard]] KernelTable compare_intensity(const KernelTable& kernels);
 
 // The same codes as bit-planes, but all eight planes are the grey level, smoothed as much as
