@@ -5,6 +5,7 @@
 #   deploy/install-deps.sh build   what building and running needs
 #   deploy/install-deps.sh         the same, and what the tests need
 #   deploy/install-deps.sh cross   the same, and what cross builds need
+#   deploy/install-deps.sh measure what building needs, and what plots of the accuracy need
 set -euo pipefail
 
 here="$(cd "$(dirname "$0")" && pwd)"
@@ -12,8 +13,9 @@ case "${1:-test}" in
   build) groups='^build$' ;;
   test) groups='^(build|test)$' ;;
   cross) groups='^(build|test|cross)$' ;;
+  measure) groups='^(build|measure)$' ;;
   *)
-    echo "install-deps.sh: unknown group \`$1\`; use build, test or cross" >&2
+    echo "install-deps.sh: unknown group \`$1\`; use build, test, cross or measure" >&2
     exit 64
     ;;
 esac

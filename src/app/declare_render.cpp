@@ -92,7 +92,8 @@ VerbAction declare_render(CLI::App& command) {
   command.add_option("--set", words->settings, "One key of the scene; repeatable")
       ->type_name("KEY=VALUE")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
   command.add_option("--layout", words->layout, "Of the folder; default euroc")
       ->type_name("euroc|kitti");
   command.add_flag("--force", words->is_forced, "Write over an earlier recording in DIR");

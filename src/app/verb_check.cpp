@@ -162,7 +162,8 @@ VerbAction declare_check(CLI::App& command) {
   command.add_option("--set", words->settings, "One key of the configuration; repeatable")
       ->type_name("KEY=VALUE")
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
   command.add_option("--width", words->width, "Thumbnail width, height follows; 0: the source's")
       ->type_name("PX");
   command.footer(kMore);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/config.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -23,7 +24,14 @@ std::string to_text(double value) {
   return {text, written.ptr};
 }
 
+std::string join_with_or(std::span<const std::string_view> words) {
+  std::string joined(words.front());
+  for (const std::string_view word : words.subspan(1)) joined.append(" or ").append(word);
+  return joined;
+}
+
 std::string describe_range(const ConfigKey& key) {
+  if (const auto* field = std::get_if<WordField>(&key.field)) return join_with_or(field->words);
   if (std::holds_alternative<bool OdometryConfig::*>(key.field)) return "true or false";
   std::string range = to_text(key.least) + " to " + to_text(key.most);
   if (!key.unit.empty()) range.append(" ").append(key.unit);
@@ -35,8 +43,17 @@ std::string describe_limits(const ConfigKey& key) {
   return key.limits.empty() ? "" : " (" + std::string(key.limits) + ")";
 }
 
+std::string suggest_word(const ConfigKey& key, std::string_view found) {
+  const auto* field = std::get_if<WordField>(&key.field);
+  const auto nearest = field != nullptr ? nearest_name(found, field->words) : std::nullopt;
+  return nearest ? ", did you mean '" + std::string(*nearest) + "'?" : "";
+}
+
 // What one key of `config` is, as the file would say it.
 std::string value_text(const OdometryConfig& config, const ConfigKey& key) {
+  if (const auto* field = std::get_if<WordField>(&key.field)) {
+    return std::string(field->words[field->get(config)]);
+  }
   if (const auto* field = std::get_if<bool OdometryConfig::*>(&key.field)) {
     return config.**field ? "true" : "false";
   }
@@ -50,8 +67,16 @@ bool is_allowed(const ConfigKey& key, double value) {
   return (value >= key.least && value <= key.most) || (key.may_be_zero && value == 0.0);
 }
 
+bool set_word(OdometryConfig& config, const WordField& field, std::string_view text) {
+  const auto word = std::find(field.words.begin(), field.words.end(), text);
+  if (word == field.words.end()) return false;
+  field.set(config, static_cast<std::size_t>(word - field.words.begin()));
+  return true;
+}
+
 // @return false when `text` is not a value of the key's type and range.
 bool set_value(OdometryConfig& config, const ConfigKey& key, std::string_view text) {
+  if (const auto* field = std::get_if<WordField>(&key.field)) return set_word(config, *field, text);
   if (const auto* field = std::get_if<bool OdometryConfig::*>(&key.field)) {
     config.** field = text == "true";
     return text == "true" || text == "false";
@@ -95,7 +120,7 @@ class Setter {
     if (!set_value(config_, *key, value)) {
       return failure(code_, where + "key '" + std::string(name) + "': found '" +
                                 std::string(value) + "', allowed is " + describe_range(*key) +
-                                describe_limits(*key));
+                                describe_limits(*key) + suggest_word(*key, value));
     }
     return {};
   }

@@ -14,12 +14,20 @@
 
 namespace darkling {
 
+// Of a key that is one of a few words: an enumeration of OdometryConfig, by its place in `words`.
+struct WordField {
+  std::span<const std::string_view> words;
+  std::size_t (*get)(const OdometryConfig& config);
+  void (*set)(OdometryConfig& config, std::size_t word);
+};
+
 struct ConfigKey {
   std::string_view name;
-  std::string_view unit;  // empty for counts and switches
-  double least;
+  std::string_view unit;  // empty for counts, switches and words
+  double least;           // of a number
   double most;
-  std::variant<int OdometryConfig::*, double OdometryConfig::*, bool OdometryConfig::*> field;
+  std::variant<int OdometryConfig::*, double OdometryConfig::*, bool OdometryConfig::*, WordField>
+      field;
   std::string_view about;        // one sentence
   bool may_be_zero = false;      // besides the range: 0 has a meaning of its own
   std::string_view limits = "";  // that the range is made of, by their names in vo/limits.h
@@ -37,7 +45,8 @@ struct ConfigSetting {
 // @param path  of a flat YAML map; empty for none.
 // @return kNoInput when the file cannot be read, kConfiguration for what is wrong in it and kUsage
 //         for what is wrong in a setting: a key that is unknown (the nearest known is named) or
-//         comes twice, a value that is no number or out of range. File and line are named.
+//         comes twice, a value that is no number, out of range or none of the words. File and line
+//         are named.
 [[nodiscard]] Result<OdometryConfig> load_config(const std::string& path,
                                                  const std::vector<ConfigSetting>& settings);
 

@@ -12,8 +12,6 @@ namespace {
 
 constexpr int kD = kDisparities;
 constexpr int kWindow = 3;
-// In bits of the window's Hamming distance (8 a pixel, 72 in all).
-constexpr SemiGlobalPenalties kPenalties = {.small_step = 8, .large_step = 32};
 
 // Offset of the minimum from the middle of three costs, in ±0.5: two lines of equal and opposite
 // slope through them. Less biased than a parabola for costs that grow linearly with distance.
@@ -97,7 +95,7 @@ double match_stereo(const KernelTable& kernels, ImageView<const std::uint8_t> le
     if (y + 1 < height) compare_row(y + 1);
     const std::uint8_t* const rows[kWindow] = {hamming_row(std::max(y - 1, 0)), hamming_row(y),
                                                hamming_row(std::min(y + 1, height - 1))};
-    kernels.semi_global_row(rows, kPenalties, m.paths, m.row);
+    kernels.semi_global_row(rows, m.penalties, m.paths, m.row);
     const RowOutcome outcome = check_winners(m.row, width, disparity.row(y));
     known += outcome.known;
     cost += outcome.cost;

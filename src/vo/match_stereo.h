@@ -12,8 +12,15 @@ namespace darkling {
 // Where no disparity is known.
 inline constexpr float kNoDisparity = -1.0f;
 
-// Memory of match_stereo() for one image size.
+// In bits of the window's Hamming distance (8 a pixel, 72 in all).
+inline constexpr SemiGlobalPenalties kSemiGlobalPenalties = {.small_step = 8, .large_step = 32};
+// Without penalties every path costs what its pixel costs, so that the winner is the least window
+// sum: block matching.
+inline constexpr SemiGlobalPenalties kBlockPenalties = {.small_step = 0, .large_step = 0};
+
+// Memory of match_stereo() for one image size, and what it does there.
 struct StereoMatcher {
+  SemiGlobalPenalties penalties = kSemiGlobalPenalties;
   PathRows paths;
   std::uint8_t* hamming_rows = nullptr;    // a ring of three rows
   std::uint8_t* right_reversed = nullptr;  // one row of codes

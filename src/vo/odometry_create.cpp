@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "vo/check_limits.h"
+#include "vo/compare_intensity.h"
 #include "vo/limits.h"
 #include "vo/odometry_state.h"
 
@@ -42,6 +43,7 @@ Odometry::State::MapMemory Odometry::State::allocate_buffers(Arena& from) {
   right = allocate_pyramid(rig, {dense_level + 1, 1, dense_level}, from);
   plane_scratch = allocate_plane_scratch(rig, from);
   matcher = allocate_stereo_matcher(rig.width >> dense_level, from);
+  if (config.stereo == StereoMethod::kBlock) matcher.penalties = kBlockPenalties;
   disparities = allocate_disparities(rig.width, rig.height, levels, dense_level, from);
   selector = allocate_point_selector(rig, config.points_per_level, from);
   residuals = allocate_residuals(config.points_per_level, from);
@@ -66,8 +68,10 @@ Result<std::unique_ptr<Odometry>> Odometry::create(const OdometryConfig& config,
   Arena measuring = Arena::measuring();
   claim_buffers(config, rectified->width, rectified->height, measuring);
 
-  auto state =
-      std::make_unique<State>(config, *rectified, kernels, read_clock, measuring.used_bytes());
+  const bool is_intensity = config.descriptor == Descriptor::kIntensity;
+  auto state = std::make_unique<State>(config, *rectified,
+                                       is_intensity ? compare_intensity(kernels) : kernels,
+                                       read_clock, measuring.used_bytes());
   State& s = *state;
   const State::MapMemory maps = s.allocate_buffers(s.arena);
   CHECK(s.arena.used_bytes() == s.arena.capacity_bytes(), "an arena is as large as was measured");

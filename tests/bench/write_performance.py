@@ -13,15 +13,8 @@ import platform
 import re
 import sys
 
-MARKS = re.compile(r"(<!-- measured: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
-
-
-def table(head, rows):
-    """Words to the left, numbers to the right."""
-    is_number = lambda column: any(str(row[column])[:1].isdigit() for row in rows)
-    rule = ["---:" if is_number(column) and column > 0 else "---" for column in range(len(head))]
-    lines = [head, rule] + rows
-    return "".join("| " + " | ".join(str(cell) for cell in line) + " |\n" for line in lines)
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from measured_page import fill_page, table
 
 
 def percent(share):
@@ -135,9 +128,7 @@ def read_reports(folder):
 
 def main(folder, page):
     reports = read_reports(pathlib.Path(folder))
-    page = pathlib.Path(page)
-    write = lambda match: match[1] + "\n" + WRITERS[match[2]](reports) + "\n" + match[3]
-    page.write_text(MARKS.sub(write, page.read_text()))
+    fill_page(pathlib.Path(page), lambda name: WRITERS[name](reports))
 
 
 if __name__ == "__main__":

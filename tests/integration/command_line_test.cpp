@@ -73,6 +73,19 @@ TEST(CommandLine, SaysWhatIsAllowedOfAnOption) {
   expect_usage_error({"replay", "x", "--kernels", "sse5"}, "ref");
 }
 
+TEST(CommandLine, TakesOneWordForEachSetting) {
+  for (const char* verb : {"replay", "check"}) {
+    const auto run =
+        run_darkling({verb, "--set", "width_px=177", "--set", "points_per_level=200", "/absent"});
+    EXPECT_EQ(run.status, 66) << verb;
+    EXPECT_THAT(run.err, HasSubstr("/absent")) << verb;
+  }
+  const test::TemporaryFolder folder;
+  const auto render = run_darkling(
+      {"render", "--set", "frames=1", "--set", "width=64", "corridor", folder / "corridor"});
+  EXPECT_EQ(render.status, 0) << render.err;
+}
+
 TEST(CommandLine, PrintsTheConfigurationItWouldUse) {
   const auto run = run_darkling({"replay", "--width", "177", "--print-config"});
   EXPECT_EQ(run.status, 0);

@@ -275,6 +275,23 @@ TEST_P(EachSemiGlobal, PrefersTheSmallestOfEqualDisparities) {
   for (const int winner : outcome.right_winners) ASSERT_EQ(winner % D, 0);
 }
 
+TEST_P(EachSemiGlobal, ChoosesTheLeastWindowSumWithoutPenalties) {
+  Random random(3);
+  const Volume hamming = random_hamming(61, 5, Distances::kAny, random);
+  GuardedPaths paths(61);
+  const Outcome outcome = match_image(GetParam().semi_global_row, hamming, {0, 0}, paths);
+  const Volume costs = window_oracle(hamming);
+  for (int i = 0; i < 61 * 5; ++i) {
+    int best = 0;
+    for (int d = 1; d <= std::min(i % 61, D - 1); ++d) {
+      if (costs.at(i % 61, i / 61, d) < costs.at(i % 61, i / 61, best)) best = d;
+    }
+    // The five paths each cost what the window does.
+    const int sum = 5 * costs.at(i % 61, i / 61, best);
+    ASSERT_EQ(outcome.left_winners[static_cast<std::size_t>(i)], sum * D + best) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, EachSemiGlobal, ::testing::ValuesIn(test::available_tables()),
                          test::table_name);
 

@@ -15,6 +15,7 @@ namespace darkling {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Result<OdometryConfig> load_content(const std::string& content) {
   const test::TemporaryFolder folder;
@@ -84,6 +85,32 @@ TEST(LoadConfig, RefusesValuesOfAnotherKind) {
   }
 }
 
+TEST(LoadConfig, TakesTheWordsOfAnEnumeration) {
+  EXPECT_EQ(OdometryConfig{}.stereo, StereoMethod::kSemiGlobal);
+  EXPECT_EQ(load_content("stereo: block\n")->stereo, StereoMethod::kBlock);
+  EXPECT_EQ(load_setting("stereo=block")->stereo, StereoMethod::kBlock);
+  EXPECT_EQ(OdometryConfig{}.descriptor, Descriptor::kBitplanes);
+  EXPECT_EQ(load_setting("descriptor=intensity")->descriptor, Descriptor::kIntensity);
+  EXPECT_EQ(load_setting("stereo=semi_global")->stereo, StereoMethod::kSemiGlobal);
+}
+
+TEST(LoadConfig, ListsTheWordsAndSuggestsOneInPlaceOfAnother) {
+  expect_refused(load_content("stereo: blokc\n"), ExitCode::kConfiguration,
+                 "rover.yaml:1: key 'stereo': found 'blokc', allowed is semi_global or block, did "
+                 "you mean 'block'?");
+  expect_refused(
+      load_setting("descriptor=intensty"), ExitCode::kUsage,
+      "--set: key 'descriptor': found 'intensty', allowed is bitplanes or intensity, did "
+      "you mean 'intensity'?");
+  for (const char* value : {"", "1", "true", "[block]", "{a: block}", "BLOCK", "block "}) {
+    expect_refused(load_setting("stereo=" + std::string(value)), ExitCode::kUsage,
+                   "allowed is semi_global or block");
+  }
+  const auto unlike = load_setting("stereo=1");
+  ASSERT_FALSE(unlike);
+  EXPECT_THAT(unlike.error().message, Not(HasSubstr("did you mean")));
+}
+
 TEST(LoadConfig, RefusesASettingWithoutAnEqualsSign) {
   expect_refused(load_setting("width_px"), ExitCode::kUsage, "key=value is needed");
 }
@@ -114,9 +141,12 @@ TEST(FormatConfig, IsReadBackAsTheSameConfiguration) {
   OdometryConfig config;
   config.width_px = 177;
   config.points_per_level = 321;
+  config.descriptor = Descriptor::kIntensity;
+  config.stereo = StereoMethod::kBlock;
   const auto read = load_content(format_config(config));
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(format_config(*read), format_config(config));
+  EXPECT_THAT(format_config(*read), HasSubstr("# Allowed: semi_global or block.\nstereo: block\n"));
 }
 
 // DARKLING_UPDATE=1 writes the file instead.

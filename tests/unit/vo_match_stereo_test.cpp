@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "support/kernel_cases.h"
@@ -103,6 +105,40 @@ TEST_F(MatchStereo, GivesTheSameDisparitiesWithEveryKernel) {
     EXPECT_EQ(disparities, expected) << kernels.name;
     EXPECT_EQ(matcher_.mean_cost, expected_cost) << kernels.name;
   }
+}
+
+// The cost of a disparity by itself: bits that differ in 3×3 codes, the nearest standing in beyond
+// the border, and all of them where the other pixel is outside.
+int window_cost(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int x,
+                int y, int d) {
+  int cost = 0;
+  for (int k = 0; k < 9; ++k) {
+    const int u = std::clamp(x + k % 3 - 1, 0, left.width - 1);
+    const int v = std::clamp(y + k / 3 - 1, 0, left.height - 1);
+    cost += u < d ? 8 : std::popcount(unsigned{left.at(u, v)} ^ unsigned{right.at(u - d, v)});
+  }
+  return cost;
+}
+
+TEST_F(MatchStereo, TakesTheLeastWindowCostWithoutAggregation) {
+  test::fill_image(left_.grey(), test::Fill::kUniform, 1);
+  test::fill_image(right_.grey(), test::Fill::kUniform, 2);
+  matcher_.penalties = kBlockPenalties;
+  (void)match();
+  int known = 0;
+  for (int y = 0; y < rig_.height; ++y) {
+    for (int x = 0; x < rig_.width; ++x) {
+      if (disparity_.at(x, y) == kNoDisparity) continue;
+      int best = 0;
+      const auto cost = [&](int d) { return window_cost(left_.codes(), right_.codes(), x, y, d); };
+      for (int d = 1; d <= std::min(x, kDisparities - 1); ++d) {
+        if (cost(d) < cost(best)) best = d;
+      }
+      ASSERT_NEAR(disparity_.at(x, y), best, 0.5) << x << " " << y;
+      ++known;
+    }
+  }
+  EXPECT_GT(known, 1000);
 }
 
 TEST_F(MatchStereo, KnowsFewerDisparitiesOfUnrelatedImages) {
