@@ -41,6 +41,16 @@ constexpr std::array kKeys = std::to_array<ConfigKey>({
     {"stereo", "", 0, 0, one_of<&C::stereo>(kStereoWords),
      "How a keyframe's disparities are found: semi_global lets neighbours agree, block takes the "
      "least cost of each window by itself and is there to compare with."},
+    {"refinement", "", 0, 0, &C::refinement,
+     "Whether the last keyframes and their points are refined together, and new keyframes start "
+     "from "
+     "the depths found so."},
+    {"window_keyframes", "", kMinWindowKeyframes, kMaxWindowKeyframes, &C::window_keyframes,
+     "How many keyframes are refined together.",
+     /*may_be_zero=*/false, "kMinWindowKeyframes, kMaxWindowKeyframes"},
+    {"window_points", "", kMinWindowPoints, kMaxWindowPoints, &C::window_points,
+     "Most points of each keyframe that are refined.",
+     /*may_be_zero=*/false, "kMinWindowPoints, kMaxWindowPoints"},
 });
 
 }  // namespace

@@ -24,19 +24,6 @@ constexpr double kConvergedStepPx = 0.01;
 constexpr double kConvergedCoarseStepPx = 0.1;
 constexpr int kMinPoints = 12;  // twice the unknowns; fewer do not constrain a motion
 
-PointWarp make_warp(const Se3& T_current_key, const PyramidLevel& level) {
-  PointWarp warp;
-  const Matrix3 R = T_current_key.R();
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) warp.A[3 * i + j] = static_cast<float>(R(i, j));
-    warp.a[i] = static_cast<float>(T_current_key.translation()[i]);
-  }
-  warp.focal_px = static_cast<float>(level.focal_px);
-  warp.cx = static_cast<float>(level.cx);
-  warp.cy = static_cast<float>(level.cy);
-  return warp;
-}
-
 AlignmentScore score_residuals(const PointResiduals& residuals, int count) {
   double sum = 0.0;
   int visible = 0;
@@ -79,35 +66,12 @@ float median_squares(const PointResiduals& residuals, int count, int visible) {
   return edge(bin) + share * (edge(bin + 1) - edge(bin));
 }
 
-struct NormalEquations {
-  Matrix6 H;
-  Vector6 g;
-};
-
-NormalEquations unpack(const NormalSums& sums, double focal_px) {
-  const double f2 = focal_px * focal_px;
-  NormalEquations equations;
-  int entry = 0;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j, ++entry) {
-      equations.H(i, j) = f2 * static_cast<double>(sums.H[entry]);
-      equations.H(j, i) = equations.H(i, j);
-    }
-    equations.g[i] = focal_px * static_cast<double>(sums.g[i]);
-  }
-  return equations;
-}
-
 // One robust weight a point, on the scale of the median, so that points that do not match have no
 // say. Geman and McClure's against Cauchy's of the same efficiency: the drift of a car fell by a
 // tenth (steps of 3.6 m: by a fifth); RPE of a drone rose by 2 to 5 %.
 NormalEquations accumulate(const KernelTable& kernels, const TemplatePoints& points,
                            const PointResiduals& residuals, int visible, double focal_px) {
-  constexpr float kScaleOfMedian = 0.8f;
-  constexpr float kLeastSquares = kPlaneCount;  // σ of one grey level
-  const float scale_squares =
-      std::max(kLeastSquares,
-               kScaleOfMedian * kScaleOfMedian * median_squares(residuals, points.count, visible));
+  const float scale_squares = weight_scale_squares(residuals, points.count, visible);
   NormalSums sums;
   kernels.normal_equations(points, residuals, static_cast<float>(focal_px), 1.0f / scale_squares,
                            sums);
@@ -142,6 +106,40 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
 }
 
 }  // namespace
+
+PointWarp make_warp(const Se3& T_current_key, const PyramidLevel& level) {
+  PointWarp warp;
+  const Matrix3 R = T_current_key.R();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) warp.A[3 * i + j] = static_cast<float>(R(i, j));
+    warp.a[i] = static_cast<float>(T_current_key.translation()[i]);
+  }
+  warp.focal_px = static_cast<float>(level.focal_px);
+  warp.cx = static_cast<float>(level.cx);
+  warp.cy = static_cast<float>(level.cy);
+  return warp;
+}
+
+NormalEquations unpack(const NormalSums& sums, double focal_px) {
+  const double f2 = focal_px * focal_px;
+  NormalEquations equations;
+  int entry = 0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j, ++entry) {
+      equations.H(i, j) = f2 * static_cast<double>(sums.H[entry]);
+      equations.H(j, i) = equations.H(i, j);
+    }
+    equations.g[i] = focal_px * static_cast<double>(sums.g[i]);
+  }
+  return equations;
+}
+
+float weight_scale_squares(const PointResiduals& residuals, int count, int visible) {
+  constexpr float kScaleOfMedian = 0.8f;
+  constexpr float kLeastSquares = kPlaneCount;  // σ of one grey level
+  return std::max(kLeastSquares,
+                  kScaleOfMedian * kScaleOfMedian * median_squares(residuals, count, visible));
+}
 
 PointResiduals allocate_residuals(int points_per_level, Arena& arena) {
   const auto array = [&] {

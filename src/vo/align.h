@@ -36,6 +36,19 @@ struct Alignment {
 // Scratch of one alignment.
 [[nodiscard]] PointResiduals allocate_residuals(int points_per_level, Arena& arena);
 
+// Where T_current_key puts template points in an image of this level.
+[[nodiscard]] PointWarp make_warp(const Se3& T_current_key, const PyramidLevel& level);
+
+// 8 σ² of the robust weights: σ is 0.8 of the median distance, and a grey level at least.
+[[nodiscard]] float weight_scale_squares(const PointResiduals& residuals, int count, int visible);
+
+struct NormalEquations {
+  Matrix6 H;
+  Vector6 g;
+};
+// A kernel's sums in m and rad.
+[[nodiscard]] NormalEquations unpack(const NormalSums& sums, double focal_px);
+
 // Aligns a keyframe's template to the current frame from coarse to fine: Gauss-Newton with the
 // inverse compositional update in disparity space, one robust weight a point.
 //

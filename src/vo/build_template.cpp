@@ -3,11 +3,10 @@
 
 namespace darkling {
 
-namespace {
-
-TemplatePoints allocate_points(int capacity, Arena& arena) {
+TemplatePoints allocate_points(int capacity, const char* points_name, const char* patches_name,
+                               Arena& arena) {
   const auto array = [&] {
-    return arena.allocate<float>(round_up_to_lanes(capacity), "template points").data();
+    return arena.allocate<float>(round_up_to_lanes(capacity), points_name).data();
   };
   TemplatePoints points;
   points.x = array();
@@ -16,18 +15,16 @@ TemplatePoints allocate_points(int capacity, Arena& arena) {
   points.Sxx = array();
   points.Sxy = array();
   points.Syy = array();
-  points.patches =
-      arena.allocate<PlanePatch>(round_up_to_lanes(capacity), "template patches").data();
+  points.patches = arena.allocate<PlanePatch>(round_up_to_lanes(capacity), patches_name).data();
   return points;
 }
-
-}  // namespace
 
 KeyframeTemplate allocate_template(int level_count, int points_per_level, Arena& arena) {
   KeyframeTemplate keyframe;
   for (int l = 0; l < level_count; ++l) {
     const int capacity = points_on_level(points_per_level, l);
-    const TemplateLevel level = {allocate_points(capacity, arena), capacity, 0.0f};
+    const TemplateLevel level = {
+        allocate_points(capacity, "template points", "template patches", arena), capacity, 0.0f};
     CHECK(keyframe.levels.push_back(level), "more levels than kMaxLevels");
   }
   return keyframe;

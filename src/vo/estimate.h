@@ -31,10 +31,25 @@ enum Reason : std::uint32_t {
 inline constexpr int kReasonCount = 8;
 
 // The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
-enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect };
-inline constexpr int kStageCount = 6;
+enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect, kRefine };
+inline constexpr int kStageCount = 7;
 inline constexpr std::array<const char*, kStageCount> kStageNames = {
-    "rectify", "pyramid", "planes", "track", "stereo", "select"};
+    "rectify", "pyramid", "planes", "track", "stereo", "select", "refine"};
+
+// What became of one refinement of the window.
+enum class Refinement : std::uint8_t {
+  kUnknown = 0,
+  kApplied,
+  kTooFewPoints,    // refused: too little of the window is seen in the newest keyframe …
+  kDisagreement,    // … or what is seen there does not look as it should: its pose is wrong
+  kIllConditioned,  // refused: some motion of some keyframe is not observed
+  kStepTooLarge,    // refused: a keyframe would move further than tracking can have erred
+  kNoGain,          // nothing to do: no step lowers the cost
+};
+inline constexpr int kRefinementCount = 7;
+inline constexpr std::array<const char*, kRefinementCount> kRefinementNames = {
+    "unknown",         "applied",        "too_few_points", "disagreement",
+    "ill_conditioned", "step_too_large", "no_gain"};
 
 // What one frame taught: one per input frame, whatever happened to it.
 struct Estimate {
@@ -47,11 +62,15 @@ struct Estimate {
   int reset_counter = 0;                // how often the track was broken and re-anchored
   Se3 T_world_left;                     // accumulated; held or predicted while kLost
   Se3 T_world_body;
-  Se3 T_previous_body;            // motion since the previous Estimate
+  // Motion since the previous Estimate, as measured. Poses follow a refinement of the keyframes
+  // behind them little by little; that is no motion, and not in here.
+  Se3 T_previous_body;
   int point_count = 0;            // template points of the finest level seen in this frame
   double visible_fraction = 0.0;  // of the template points, 0…1
   double cost = 0.0;              // mean truncated descriptor distance, 0…1, absolute
   int iterations = 0;             // of alignment, all levels
+  // Of the keyframe before this frame, when it was refined since the last Estimate.
+  Refinement refinement = Refinement::kUnknown;
   std::array<Duration, kStageCount> stage_times = {};
 };
 

@@ -33,8 +33,9 @@ struct PointSelector {
   struct Candidate {
     std::uint16_t x;
     std::uint16_t y;
-    std::uint16_t saliency;  // in steps of two
-    float disparity_px;      // at the level it was selected on
+    std::uint16_t saliency;     // in steps of two
+    float disparity_px;         // at the level it was selected on
+    float variance_px2 = 0.0f;  // of the disparity, as far as refinement knows it
   };
   std::span<Candidate> candidates;
 
@@ -52,6 +53,9 @@ struct PointSelector {
   return level == 0 ? points_per_level : points_per_level / 2;
 }
 
+// @param points_name, patches_name  of the buffers.
+[[nodiscard]] TemplatePoints allocate_points(int capacity, const char* points_name,
+                                             const char* patches_name, Arena& arena);
 [[nodiscard]] KeyframeTemplate allocate_template(int level_count, int points_per_level,
                                                  Arena& arena);
 [[nodiscard]] PointSelector allocate_point_selector(const RectifiedRig& rig, int points_per_level,

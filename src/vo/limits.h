@@ -18,6 +18,10 @@ inline constexpr int kMaxLevels = 6;
 inline constexpr int kMaxPointsPerLevel = 4000;
 // With 60 no keyframe ever came about: some cells of the grid are empty, and 60 must be left.
 inline constexpr int kMinPointsPerLevel = 100;
+inline constexpr int kMinWindowKeyframes = 2;
+inline constexpr int kMaxWindowKeyframes = 8;
+inline constexpr int kMinWindowPoints = 50;    // of a keyframe
+inline constexpr int kMaxWindowPoints = 1000;  // of a keyframe
 // px, of the level that is matched densely: 32 disparities are a sixth of it.
 inline constexpr int kMaxStereoWidth = 192;
 

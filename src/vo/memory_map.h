@@ -43,6 +43,13 @@ inline constexpr std::array kBufferRows = std::to_array<BufferRow>({
     {"point residuals", "track", "track", "scratch of a level: three arrays"},
     {"template points", "select", "track", "of the keyframe: every level, six arrays"},
     {"template patches", "select", "track", "of the keyframe: every level"},
+    {"points of the window", "select", "select", "scratch: which point a pixel shows"},
+    {"window points", "select, refine", "select, refine", "each keyframe: six arrays"},
+    {"window patches", "select", "refine", "each keyframe"},
+    {"window observations", "select, refine", "select, refine",
+     "each keyframe: views by later ones"},
+    {"window equations", "refine", "refine", "each keyframe: of its points' depths"},
+    {"window normal equations", "refine", "refine", "of the keyframes' poses"},
 });
 
 // What the rows take for one thumbnail size.

@@ -11,6 +11,7 @@
 #include "kernels/kernel_table.h"
 #include "vo/estimate.h"
 #include "vo/odometry_config.h"
+#include "vo/refinement_runner.h"
 
 namespace darkling {
 
@@ -21,10 +22,13 @@ class Odometry {
   using ReadClock = MonotonicTime (*)();
 
   // @param read_clock  times the stages; results do not depend on it.
+  // @param runner      computes refinements, and outlives the odometry; without one they are
+  //                    computed by finish_refinement(), or at the start of track() or skip().
   // @return kConfiguration when the rig makes no sense or the thumbnail exceeds vo/limits.h.
   static Result<std::unique_ptr<Odometry>> create(const OdometryConfig& config,
                                                   const StereoRig& rig, const KernelTable& kernels,
-                                                  ReadClock read_clock);
+                                                  ReadClock read_clock,
+                                                  RefinementRunner* runner = nullptr);
   ~Odometry();
 
   // @pre the frame's images have the sizes of the rig's cameras.
@@ -34,8 +38,14 @@ class Odometry {
   // kReasonDropped. The next track() takes the gap into account.
   [[nodiscard]] Estimate skip(std::int64_t sequence, FrameTime stamp);
 
+  // Completes the refinement that the last frame left, if any: what track() and skip() begin with,
+  // for callers that have time between frames.
+  void finish_refinement();
+
   [[nodiscard]] const RectifiedRig& rig() const;
   [[nodiscard]] std::size_t arena_bytes() const;
+  // How often the runner was still at work when the next frame came.
+  [[nodiscard]] std::int64_t refinement_overruns() const;
 
   // Asks `arena` for every buffer that create() claims for a thumbnail of this size, and fills
   // none.

@@ -17,6 +17,9 @@ struct OdometryConfig {
   int points_per_level = 1000;  // template points at most; half as many on coarse levels
   Descriptor descriptor = Descriptor::kBitplanes;
   StereoMethod stereo = StereoMethod::kSemiGlobal;
+  bool refinement = true;    // of the last keyframes together
+  int window_keyframes = 5;  // that are refined together
+  int window_points = 400;   // of each of them, at most
 };
 
 }  // namespace darkling

@@ -31,6 +31,9 @@ const RectifiedRig& Odometry::rig() const {
 std::size_t Odometry::arena_bytes() const {
   return state_->arena.used_bytes();
 }
+std::int64_t Odometry::refinement_overruns() const {
+  return state_->refinement_overruns;
+}
 std::size_t Odometry::state_bytes() {
   return sizeof(State);
 }
@@ -48,6 +51,11 @@ Odometry::State::MapMemory Odometry::State::allocate_buffers(Arena& from) {
   selector = allocate_point_selector(rig, config.points_per_level, from);
   residuals = allocate_residuals(config.points_per_level, from);
   keyframe = allocate_template(levels, config.points_per_level, from);
+  if (config.refinement) {
+    point_image = allocate_point_image(rig, from);
+    allocate_window(rig, config, from, window);
+    allocate_window_equations(config, from, equations);
+  }
   return maps;
 }
 
@@ -56,13 +64,14 @@ void Odometry::claim_buffers(const OdometryConfig& config, int width_px, int hei
   RectifiedRig rig;
   rig.width = width_px;
   rig.height = height_px;
-  (void)std::make_unique<State>(config, rig, KernelTable(), nullptr, 0)->allocate_buffers(arena);
+  (void)std::make_unique<State>(config, rig, KernelTable(), nullptr, nullptr, 0)
+      ->allocate_buffers(arena);
 }
 
 // Buffers are claimed twice: first to measure them, then in an arena of exactly that size.
 Result<std::unique_ptr<Odometry>> Odometry::create(const OdometryConfig& config,
                                                    const StereoRig& rig, const KernelTable& kernels,
-                                                   ReadClock read_clock) {
+                                                   ReadClock read_clock, RefinementRunner* runner) {
   const Result<RectifiedRig> rectified = choose_thumbnail(config, rig);
   if (!rectified) return tl::unexpected(rectified.error());
   Arena measuring = Arena::measuring();
@@ -71,7 +80,7 @@ Result<std::unique_ptr<Odometry>> Odometry::create(const OdometryConfig& config,
   const bool is_intensity = config.descriptor == Descriptor::kIntensity;
   auto state = std::make_unique<State>(config, *rectified,
                                        is_intensity ? compare_intensity(kernels) : kernels,
-                                       read_clock, measuring.used_bytes());
+                                       read_clock, runner, measuring.used_bytes());
   State& s = *state;
   const State::MapMemory maps = s.allocate_buffers(s.arena);
   CHECK(s.arena.used_bytes() == s.arena.capacity_bytes(), "an arena is as large as was measured");

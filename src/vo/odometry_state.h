@@ -4,10 +4,14 @@
 #include "base/arena.h"
 #include "vo/align.h"
 #include "vo/area_map.h"
+#include "vo/carry_depth.h"
 #include "vo/frame_pyramid.h"
 #include "vo/keyframe_template.h"
 #include "vo/match_stereo.h"
 #include "vo/odometry.h"
+#include "vo/refine_window.h"
+#include "vo/refinement_runner.h"
+#include "vo/window.h"
 
 namespace darkling {
 
@@ -29,23 +33,36 @@ struct Odometry::State {
   PointSelector selector;
   PointResiduals residuals;
   KeyframeTemplate keyframe;
+  PointImage point_image;
+  Window window;
+  WindowEquations equations;
+
+  RefinementRunner* runner;                      // null: on the thread that tracks
+  bool is_refinement_due = false;                // started, or to be done, before the next frame
+  bool is_refinement_news = false;               // done since the last Estimate
+  Refinement refinement = Refinement::kUnknown;  // what became of the last one, and …
+  Duration refinement_time = {};                 // … what it took
+  std::int64_t refinement_overruns = 0;          // the next frame came first
 
   Se3 T_world_key;        // World here: the first rectified left camera
   Se3 T_world_previous;   // of the last frame that was measured
   Se3 T_before_previous;  // the motion that led to it
-  Se3 T_world_reported;   // of the last Estimate, measured or not
+  Se3 T_world_reported;   // of the last Estimate, measured or not, as it is thought of now
+  // What refinement moved the present frame back by and the published pose has not followed yet.
+  Vector6 unpublished = Vector6::Zero();
   std::int64_t previous_sequence = 0;
   std::int64_t motion_gap = 1;  // frames that T_before_previous spans
   int lost_in_a_row = 0;
   int reset_counter = 0;
 
   State(const OdometryConfig& config_, const RectifiedRig& rig_, const KernelTable& kernels_,
-        ReadClock read_clock_, std::size_t arena_bytes)
+        ReadClock read_clock_, RefinementRunner* runner_, std::size_t arena_bytes)
       : config(config_),
         rig(rig_),
         kernels(kernels_),
         read_clock(read_clock_),
-        arena(arena_bytes) {}
+        arena(arena_bytes),
+        runner(runner_) {}
 
   // Claims every buffer in `from` and fills none.
   // @return the memory of the maps, which look into it once they are filled.
@@ -57,6 +74,10 @@ struct Odometry::State {
 
   void prepare_left(const StereoFrame& frame, Estimate& estimate);
   bool make_keyframe(const StereoFrame& frame, Estimate& estimate);
+  void add_to_window(std::span<const PointSelector::Candidate> measured);
+  void start_refinement();
+  void refine();
+  void finish_refinement();
   void start(const StereoFrame& frame, Estimate& estimate);
   void lose(const StereoFrame& frame, Estimate& estimate);
   void accept(const Se3& T_world_left, std::int64_t sequence);

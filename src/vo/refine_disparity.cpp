@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "vo/match_stereo.h"
 
@@ -16,6 +17,9 @@ constexpr int kMaxIterations = 5;
 constexpr float kConvergedStepPx = 0.02f;
 // The matched pixel is right or it is not: refinement that leaves it found something else.
 constexpr float kMaxChangePx = 1.0f;
+// At least the error of its own arithmetic; at most that of any number in the range above.
+constexpr float kMinVariancePx2 = kConvergedStepPx * kConvergedStepPx;
+constexpr float kMaxVariancePx2 = kMaxChangePx * kMaxChangePx / 3.0f;
 // Root mean square difference over the patch's planes beyond which the eyes do not see the same; as
 // for whole points, unrelated patches are about 110 apart. Without it a covered right eye gave a
 // keyframe, and valid motions nine times too long.
@@ -55,36 +59,47 @@ float search(const KernelTable& kernels, const PyramidLevel& left, const Pyramid
   return static_cast<float>(best_disparity(kernels, left, right, c.x, c.y, range));
 }
 
-float refine(const KernelTable& kernels, const PyramidLevel& left, const PyramidLevel& right, int x,
-             int y, float d0) {
+// Variance of a fitted disparity, from what is left of the differences: Σr² / 8 over Σg². The eight
+// planes err each on its own, the nine pixels of a patch together, as smoothing has mixed them.
+// Against the true depths of rendered mines and corridors this said 0.11, 0.20, 0.30 and 0.50 px
+// where the standard deviation was 0.19, 0.25, 0.36 and 0.46 px.
+float fit_variance(const PatchFit& fit) {
+  const float variance =
+      static_cast<float>(fit.rr) / (512.0f * static_cast<float>(fit.gg));  // from 1/256 and 1/4
+  return std::clamp(variance, kMinVariancePx2, kMaxVariancePx2);
+}
+
+// Moves the candidate's disparity to where the patches agree, or makes it unknown.
+void refine(const KernelTable& kernels, const PyramidLevel& left, const PyramidLevel& right,
+            PointSelector::Candidate& c) {
+  const int x = c.x;
+  const int y = c.y;
+  const float d0 = std::exchange(c.disparity_px, kNoDisparity);
   const int width = left.grey.width;
   constexpr int kReach = kPlanePatchRadius + 1;
   if (x < kReach || x >= width - kReach || y < kPlanePatchRadius ||
       y >= left.grey.height - kPlanePatchRadius) {
-    return kNoDisparity;
+    return;
   }
   const std::uint8_t* left_planes = left.planes.row(y) + x * kPlaneCount;
   float d = d0;
   PatchFit fit;
   for (int i = 0; i < kMaxIterations; ++i) {
     const float u = static_cast<float>(x) - d;
-    if (!(u >= kPlanePatchRadius && u < static_cast<float>(width - 1 - kReach))) {
-      return kNoDisparity;
-    }
+    if (!(u >= kPlanePatchRadius && u < static_cast<float>(width - 1 - kReach))) return;
     const int u_q12 = static_cast<int>(u * 4096.0f);
     fit = kernels.compare_patch(left_planes, left.planes.stride,
                                 right.planes.row(y) + (u_q12 >> 12) * kPlaneCount,
                                 right.planes.stride, u_q12 & 4095);
-    if (fit.gg <= 0) return kNoDisparity;
+    if (fit.gg <= 0) return;
     const float step = static_cast<float>(fit.gr) / (8.0f * static_cast<float>(fit.gg));
     d += step;
-    if (std::abs(d - d0) > kMaxChangePx) return kNoDisparity;
+    if (std::abs(d - d0) > kMaxChangePx) return;
     if (std::abs(step) < kConvergedStepPx) break;
   }
-  if (static_cast<float>(fit.rr) > 256.0f * kMaxDistance * kMaxDistance * kPlanePatchValues) {
-    return kNoDisparity;
-  }
-  return std::max(d, 0.0f);
+  if (static_cast<float>(fit.rr) > 256.0f * kMaxDistance * kMaxDistance * kPlanePatchValues) return;
+  c.disparity_px = std::max(d, 0.0f);
+  c.variance_px2 = fit_variance(fit);
 }
 
 }  // namespace
@@ -101,7 +116,7 @@ void search_disparities(const KernelTable& kernels, const PyramidLevel& left,
 void refine_disparities(const KernelTable& kernels, const PyramidLevel& left,
                         const PyramidLevel& right, std::span<PointSelector::Candidate> candidates) {
   for (PointSelector::Candidate& c : candidates) {
-    c.disparity_px = refine(kernels, left, right, c.x, c.y, c.disparity_px);
+    refine(kernels, left, right, c);
   }
 }
 

@@ -19,7 +19,8 @@ void search_disparities(const KernelTable& kernels, const PyramidLevel& left,
 // Moves each candidate's disparity to where the bit-planes of a small patch agree best between the
 // eyes: Gauss-Newton in one unknown. Semi-global matching decides which pixel; this decides where
 // in it, without the pull towards whole pixels that interpolated matching costs have.
-// Candidates whose patches do not agree are given kNoDisparity.
+// Candidates whose patches do not agree are given kNoDisparity, the others a variance from how well
+// they do.
 // @pre level 0 of both eyes, with planes; candidates at least 2 px from the border.
 void refine_disparities(const KernelTable& kernels, const PyramidLevel& left,
                         const PyramidLevel& right, std::span<PointSelector::Candidate> candidates);

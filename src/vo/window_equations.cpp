@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vo/window_equations.h"
+
+#include <algorithm>
+
+#include "vo/align.h"
+
+namespace darkling {
+
+namespace {
+
+using Block = Matrix6;
+
+// A view at the poses to try.
+struct ViewGeometry {
+  float eta[6];
+  float tau[3];
+  float inverse_scale;
+  float focal_px;
+};
+
+ViewGeometry view_geometry(const Window& window, const WindowView& view, const Se3& T_later_host) {
+  const Vector6 eta = (view.T_later_host.inverse() * T_later_host).log();
+  const Vector3 tau = T_later_host.R().transpose() * T_later_host.translation();
+  ViewGeometry geometry;
+  for (int i = 0; i < 6; ++i) geometry.eta[i] = static_cast<float>(eta[i]);
+  for (int i = 0; i < 3; ++i) geometry.tau[i] = static_cast<float>(tau[i]);
+  geometry.inverse_scale = view.inverse_scale;
+  geometry.focal_px = static_cast<float>(window.focal_px);
+  return geometry;
+}
+
+// Adds what one view says about the depths of the points; writes the residuals at the present
+// estimate, for the poses' share. Free of branches, and of pointers that might be the same: for the
+// compiler to vectorise.
+void add_view(const TemplatePoints& points, const WindowView& view, const ViewGeometry& at,
+              const WindowEquations& equations, const DepthEquations& depths,
+              const std::array<float*, 6>& C_of_view) {
+  const float f = at.focal_px;
+  const float* __restrict Sxx = points.Sxx;
+  const float* __restrict Sxy = points.Sxy;
+  const float* __restrict Syy = points.Syy;
+  const float* __restrict squares_seen = view.residuals.squares;
+  float* __restrict now_bx = equations.residuals.bx;
+  float* __restrict now_by = equations.residuals.by;
+  float* __restrict now_squares = equations.residuals.squares;
+  float* __restrict cost = equations.cost_terms;
+  float* __restrict H = depths.H;
+  float* __restrict g = depths.g;
+  float* __restrict agreeing = depths.agreeing;
+  float* __restrict compared = depths.compared;
+  float* __restrict C[6] = {C_of_view[0], C_of_view[1], C_of_view[2],
+                            C_of_view[3], C_of_view[4], C_of_view[5]};
+  const int count = round_up_to_lanes(points.count);
+  for (int i = 0; i < count; ++i) {
+    const float s = points.inverse_depth_focal[i];
+    const float X = points.x[i] / f;
+    const float Y = points.y[i] / f;
+    const float k = 1.0f + at.tau[2] * s / f;
+    const float Jsu = (at.tau[0] - X * at.tau[2]) / k;
+    const float Jsv = (at.tau[1] - Y * at.tau[2]) / k;
+    const float fXY = f * X * Y;
+    const float fXX = f * (1.0f + X * X);
+    const float fYY = f * (1.0f + Y * Y);
+    const float ds = s - view.depth[i];
+    const float du = Jsu * ds + s * (at.eta[0] - X * at.eta[2]) - fXY * at.eta[3] +
+                     fXX * at.eta[4] - f * Y * at.eta[5];
+    const float dv = Jsv * ds + s * (at.eta[1] - Y * at.eta[2]) - fYY * at.eta[3] +
+                     fXY * at.eta[4] + f * X * at.eta[5];
+    const float bx0 = view.residuals.bx[i];
+    const float by0 = view.residuals.by[i];
+    const float bx = bx0 + Sxx[i] * du + Sxy[i] * dv;
+    const float by = by0 + Sxy[i] * du + Syy[i] * dv;
+    const float squares = std::max(squares_seen[i] + du * (bx0 + bx) + dv * (by0 + by), 0.0f);
+    const float seen = squares_seen[i] < 0.0f ? 0.0f : 1.0f;
+    const float e = squares * at.inverse_scale;
+    const float inverse = seen / (1.0f + e);
+    const float w = inverse * inverse * at.inverse_scale;
+    const float SJu = w * (Sxx[i] * Jsu + Sxy[i] * Jsv);
+    const float SJv = w * (Sxy[i] * Jsu + Syy[i] * Jsv);
+    now_bx[i] = bx;
+    now_by[i] = by;
+    now_squares[i] = squares_seen[i] < 0.0f ? -1.0f : squares;
+    cost[i] += e * inverse;
+    H[i] += SJu * Jsu + SJv * Jsv;
+    g[i] += w * (bx * Jsu + by * Jsv);
+    compared[i] += seen;
+    agreeing[i] += e < 1.0f ? seen : 0.0f;
+    C[0][i] = SJu * s;
+    C[1][i] = SJv * s;
+    C[2][i] = -(SJu * X + SJv * Y) * s;
+    C[3][i] = -(SJu * fXY + SJv * fYY);
+    C[4][i] = SJu * fXX + SJv * fXY;
+    C[5][i] = f * (SJv * X - SJu * Y);
+  }
+}
+
+// What the points' own stereo disparities say.
+void add_stereo(const WindowKeyframe& host, float* __restrict cost, DepthEquations& depths) {
+  for (int i = 0; i < host.points.count; ++i) {
+    const float ds = host.points.inverse_depth_focal[i] - host.stereo_depth[i];
+    const float e = ds * ds * host.stereo_information[i];
+    const float inverse = 1.0f / (1.0f + e);
+    const float w = inverse * inverse * host.stereo_information[i];
+    cost[i] += e * inverse;
+    depths.H[i] += w;
+    depths.g[i] += w * ds;
+  }
+}
+
+// Σ a b c over `count` points, in an order of its own: of eight lanes, then as kernels add lanes
+// up.
+float sum_products(const float* a, const float* b, const float* c, int count) {
+  float lanes[kPointLanes] = {};
+  for (int i = 0; i < count; i += kPointLanes) {
+    for (int k = 0; k < kPointLanes; ++k) lanes[k] += a[i + k] * b[i + k] * c[i + k];
+  }
+  return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) +
+         ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+}
+
+// The motion η of a host's points against each later keyframe: normal equations of these, from
+// which the depths are then eliminated.
+struct RelativeEquations {
+  int count = 0;                                 // later keyframes
+  std::array<Block, kMaxWindowKeyframes - 1> H;  // of one η and itself, depths not yet eliminated
+  std::array<Vector6, kMaxWindowKeyframes - 1> g;
+  std::array<Block, kMaxWindowKeyframes - 1> Ad_host_later;
+};
+
+// H - C C ᵀ / H_depth of the motions against keyframes a and b later.
+Block eliminate(const RelativeEquations& relative, const DepthEquations& depths, int count, int a,
+                int b) {
+  Block out = a == b ? relative.H[a] : Block(Block::Zero());
+  for (int i = 0; i < 6; ++i) {
+    for (int j = a == b ? i : 0; j < 6; ++j) {
+      const double product =
+          static_cast<double>(sum_products(depths.C[a][i], depths.C[b][j], depths.H, count));
+      out(i, j) -= product;
+      if (a == b && i != j) out(j, i) -= product;
+    }
+  }
+  return out;
+}
+
+class PoseSystem {
+ public:
+  PoseSystem(std::span<double> H, std::array<double, kMaxWindowUnknowns>& g) : H_(H), g_(g) {}
+
+  void add(int a, int b, const Block& block) {
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) H_[(6 * a + i) * kMaxWindowUnknowns + 6 * b + j] += block(i, j);
+    }
+  }
+  void add(int a, const Vector6& part) {
+    for (int i = 0; i < 6; ++i) g_[6 * a + i] += part[i];
+  }
+
+ private:
+  std::span<double> H_;
+  std::array<double, kMaxWindowUnknowns>& g_;
+};
+
+// η_a = ξ_host - Ad_a ξ_(host + a + 1): from relative motions to the keyframes' own.
+void expand(const RelativeEquations& relative, const DepthEquations& depths, int point_count,
+            int host, PoseSystem system) {
+  for (int a = 0; a < relative.count; ++a) {
+    const Block& Ad_a = relative.Ad_host_later[a];
+    Vector6 g = relative.g[a];
+    for (int k = 0; k < 6; ++k) {
+      g[k] -= static_cast<double>(sum_products(depths.C[a][k], depths.g, depths.H, point_count));
+    }
+    system.add(host, g);
+    system.add(host + a + 1, -Ad_a.transpose() * g);
+    for (int b = a; b < relative.count; ++b) {
+      const Block& Ad_b = relative.Ad_host_later[b];
+      const Block H = eliminate(relative, depths, point_count, a, b);
+      const Block H_b = H * Ad_b;
+      const Block a_H = Ad_a.transpose() * H;
+      const Block a_H_b = Ad_a.transpose() * H_b;
+      system.add(host, host, H);
+      system.add(host, host + b + 1, -H_b);
+      system.add(host + a + 1, host, -a_H);
+      system.add(host + a + 1, host + b + 1, a_H_b);
+      if (a == b) continue;  // else the transposed of all four
+      system.add(host, host, H.transpose());
+      system.add(host + b + 1, host, -H_b.transpose());
+      system.add(host, host + a + 1, -a_H.transpose());
+      system.add(host + b + 1, host + a + 1, a_H_b.transpose());
+    }
+  }
+}
+
+void clear(int count, DepthEquations& depths) {
+  const int lanes = round_up_to_lanes(count);
+  for (float* array : {depths.H, depths.g, depths.agreeing, depths.compared}) {
+    std::fill_n(array, lanes, 0.0f);
+  }
+  for (auto& later : depths.C) {
+    for (float* array : later) {
+      if (array != nullptr) std::fill_n(array, lanes, 0.0f);
+    }
+  }
+}
+
+double sum(const float* values, int count) {
+  double total = 0.0;
+  for (int i = 0; i < count; ++i) total += static_cast<double>(values[i]);
+  return total;
+}
+
+void count_newest(const PointResiduals& now, float inverse_scale, int count,
+                  WindowEquations& equations) {
+  for (int i = 0; i < count; ++i) {
+    equations.seen_in_newest += now.squares[i] >= 0.0f ? 1 : 0;
+    equations.agreeing_in_newest +=
+        now.squares[i] >= 0.0f && now.squares[i] * inverse_scale < 1.0f ? 1 : 0;
+  }
+}
+
+void linearise_host(const KernelTable& kernels, const Window& window, int host,
+                    WindowEquations& equations) {
+  const WindowKeyframe& keyframe = window.keyframes()[host];
+  const int count = keyframe.points.count;
+  DepthEquations& depths = equations.depths[host];
+  clear(count, depths);
+  std::fill_n(equations.cost_terms, round_up_to_lanes(count), 0.0f);
+  add_stereo(keyframe, equations.cost_terms, depths);
+  RelativeEquations relative;
+  relative.count = window.count - 1 - host;
+  for (int later = 0; later < relative.count; ++later) {
+    const Se3 T_later_host =
+        window.keyframes()[host + later + 1].T_world_key.inverse() * keyframe.T_world_key;
+    relative.H[later].setZero();
+    relative.g[later].setZero();
+    relative.Ad_host_later[later] = T_later_host.inverse().adjoint();
+    const WindowView& view = keyframe.views[later];
+    if (view.visible_count == 0) continue;
+    add_view(keyframe.points, view, view_geometry(window, view, T_later_host), equations, depths,
+             depths.C[later]);
+    NormalSums sums;
+    kernels.normal_equations(keyframe.points, equations.residuals,
+                             static_cast<float>(window.focal_px), view.inverse_scale, sums);
+    const NormalEquations motion = unpack(sums, window.focal_px);
+    relative.H[later] = static_cast<double>(view.inverse_scale) * motion.H;
+    relative.g[later] = static_cast<double>(view.inverse_scale) * motion.g;
+    if (later + 1 == relative.count) {
+      count_newest(equations.residuals, view.inverse_scale, count, equations);
+    }
+  }
+  equations.cost += sum(equations.cost_terms, count);
+  // Behind the last point of a multiple of lanes, C and g are 0, and so is their product.
+  for (int i = 0; i < round_up_to_lanes(count); ++i) {
+    depths.H[i] = i < count ? 1.0f / depths.H[i] : 0.0f;
+  }
+  expand(relative, depths, count, host, PoseSystem(equations.H, equations.g));
+}
+
+}  // namespace
+
+void allocate_window_equations(const OdometryConfig& config, Arena& arena,
+                               WindowEquations& equations) {
+  const std::size_t lanes =
+      round_up_to_lanes(std::min(config.window_points, config.points_per_level));
+  const int later = config.window_keyframes - 1;
+  const std::span<float> block = arena.allocate<float>(
+      lanes * (4 + static_cast<std::size_t>(config.window_keyframes) * (6 + 6 * later)),
+      "window equations");
+  float* next = block.data();
+  const auto array = [&] {
+    float* first = next;
+    if (next != nullptr) next += lanes;
+    return first;
+  };
+  equations.residuals = {array(), array(), array()};
+  equations.cost_terms = array();
+  for (int host = 0; host < config.window_keyframes; ++host) {
+    DepthEquations& depths = equations.depths[host];
+    depths.H = array();
+    depths.g = array();
+    depths.agreeing = array();
+    depths.compared = array();
+    equations.at_start.depth[host] = array();
+    equations.before_step.depth[host] = array();
+    for (int l = 0; l < later; ++l) {
+      for (float*& component : depths.C[l]) component = array();
+    }
+  }
+  equations.H =
+      arena.allocate<double>(kMaxWindowUnknowns * kMaxWindowUnknowns, "window normal equations");
+}
+
+void linearise_window(const KernelTable& kernels, const Window& window,
+                      WindowEquations& equations) {
+  std::fill(equations.H.begin(), equations.H.end(), 0.0);
+  equations.g.fill(0.0);
+  equations.cost = 0.0;
+  equations.seen_in_newest = 0;
+  equations.agreeing_in_newest = 0;
+  for (int host = 0; host < window.count; ++host) {
+    linearise_host(kernels, window, host, equations);
+  }
+}
+
+void substitute_depths(const Window& window, const WindowEquations& equations, int host,
+                       std::span<const Vector6> steps, std::span<float> out) {
+  const DepthEquations& depths = equations.depths[host];
+  std::copy_n(depths.g, out.size(), out.data());
+  for (int later = 0; later + host + 1 < window.count; ++later) {
+    const Se3 T_host_later = window.keyframes()[host].T_world_key.inverse() *
+                             window.keyframes()[host + later + 1].T_world_key;
+    const Vector6 eta = steps[host] - T_host_later.adjoint() * steps[host + later + 1];
+    for (int k = 0; k < 6; ++k) {
+      const float eta_k = static_cast<float>(eta[k]);
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] += depths.C[later][k][i] * eta_k;
+    }
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] *= -depths.H[i];
+}
+
+}  // namespace darkling
