@@ -76,9 +76,11 @@ Result<Run> prepare(const ReplayOptions& options) {
 }
 
 // One input frame: tracked and timed when there is a pair, else skipped; heap calls are counted.
+// The last keyframe is refined before the time of the frame begins, as between frames of a camera.
 Estimate follow(Run& run, const WaitResult& next) {
   const bool is_bad = next.status == WaitStatus::kBadFrame;
   const auto heap_calls_before = count_heap_calls();
+  run.odometry->finish_refinement();
   const MonotonicTime started_at = read_monotonic_clock();
   const Estimate estimate = is_bad ? run.odometry->skip(next.sequence, next.stamp)
                                    : run.odometry->track(next.lease.frame());

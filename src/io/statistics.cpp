@@ -39,6 +39,9 @@ void StatisticsRecorder::add_motion(const Estimate& estimate) {
   for (int bit = 0; bit < kReasonCount; ++bit) {
     if ((estimate.reasons >> bit & 1u) != 0) ++counts_.reasons[bit];
   }
+  if (estimate.refinement != Refinement::kUnknown) {
+    ++counts_.refinements[static_cast<std::size_t>(estimate.refinement)];
+  }
 }
 
 void StatisticsRecorder::add_tracked(const Estimate& estimate, Duration wall_time) {

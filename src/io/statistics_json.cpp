@@ -48,6 +48,9 @@ void put_counts(Json& json, const Statistics& statistics) {
   for (int bit = 0; bit < kReasonCount; ++bit) {
     json["reasons"][kReasonNames[bit]] = statistics.reasons[bit];
   }
+  for (int outcome = 1; outcome < kRefinementCount; ++outcome) {
+    json["refinements"][kRefinementNames[outcome]] = statistics.refinements[outcome];
+  }
 }
 
 Json percentiles_json(const std::optional<Percentiles>& p) {

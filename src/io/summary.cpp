@@ -30,6 +30,19 @@ std::string frame_row(const Statistics& s) {
                            " lost, " + count(s.bad_frames) + " bad");
 }
 
+// "25 refined" and, of those that were not, why: "2 step_too_large".
+std::string keyframe_row(const Statistics& s) {
+  std::string content = text("%lld, %lld resets", static_cast<long long>(s.keyframes),
+                             static_cast<long long>(s.resets));
+  for (int outcome = 1; outcome < kRefinementCount; ++outcome) {
+    const auto count = static_cast<long long>(s.refinements[outcome]);
+    const bool is_applied = outcome == static_cast<int>(Refinement::kApplied);
+    if (count == 0) continue;
+    content += text(", %lld %s", count, is_applied ? "refined" : kRefinementNames[outcome]);
+  }
+  return row("keyframes", content);
+}
+
 std::string fault_rows(const SourceFaults& faults) {
   std::string rows;
   const auto add = [&rows](std::int64_t count, const char* what) {
@@ -86,9 +99,7 @@ std::string evaluation_rows(const Evaluation& e) {
 std::string format_summary(const RunReport& report) {
   std::string table = report.source + (report.was_interrupted ? "  (interrupted)\n" : "\n");
   table += frame_row(report.statistics) + fault_rows(report.faults);
-  table += row("keyframes",
-               text("%lld, %lld resets", static_cast<long long>(report.statistics.keyframes),
-                    static_cast<long long>(report.statistics.resets)));
+  table += keyframe_row(report.statistics);
   table += row("distance", text("%.2f m", report.statistics.distance_m));
   table += row("image", text("%d x %d px, kernels %s", report.width_px, report.height_px,
                              report.kernels.c_str()));

@@ -17,6 +17,7 @@ struct RideCounts {
   int keyframes = 0;
   int resets = 0;
   int skipped = 0;
+  int refinements = 0;  // applied
   int recoveries = 0;  // valid straight after lost, without a reset between
 };
 
@@ -53,6 +54,7 @@ class RoughRide {
       if (is_valid) ++counts.valid;
       if (frame != nullptr && estimate.status == TrackStatus::kLost) ++counts.lost;
       if (estimate.is_keyframe) ++counts.keyframes;
+      if (estimate.refinement == Refinement::kApplied) ++counts.refinements;
       if (is_valid && before == TrackStatus::kLost && !is_reset) ++counts.recoveries;
       counts.resets = estimate.reset_counter;
       before = estimate.status;

@@ -34,6 +34,7 @@ void expect_everything_happened(const RideCounts& counts) {
   EXPECT_GT(counts.valid, 500);
   EXPECT_GT(counts.lost, 48);
   EXPECT_GT(counts.keyframes, 20);
+  EXPECT_GT(counts.refinements, 10);
   EXPECT_GE(counts.resets, 4);
   EXPECT_GE(counts.recoveries, 4);
 }

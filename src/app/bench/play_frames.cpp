@@ -28,7 +28,8 @@ double median_of(std::span<const Play> plays, const Time& time) {
 }  // namespace
 
 double PlayedFrame::rest_us() const {
-  return frame_us - std::accumulate(stage_us.begin(), stage_us.end(), 0.0);
+  const double refine_us = stage_us[static_cast<std::size_t>(Stage::kRefine)];
+  return frame_us - (std::accumulate(stage_us.begin(), stage_us.end(), 0.0) - refine_us);
 }
 
 Result<Play> play_frames(const HeldFrames& held, const OdometryConfig& config,
@@ -40,6 +41,7 @@ Result<Play> play_frames(const HeldFrames& held, const OdometryConfig& config,
   play.height = (*odometry)->rig().height;
   play.frames.reserve(held.frames.size());
   for (const StereoFrame& frame : held.frames) {
+    (*odometry)->finish_refinement();
     const MonotonicTime started_at = read_cpu_time();
     const Estimate estimate = (*odometry)->track(frame);
     const Duration time = read_cpu_time() - started_at;
