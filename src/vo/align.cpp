@@ -82,21 +82,8 @@ float median_squares(const PointResiduals& residuals, int count, int visible) {
 struct NormalEquations {
   Matrix6 H;
   Vector6 g;
+  float inverse_scale;  // of the weights
 };
-
-NormalEquations unpack(const NormalSums& sums, double focal_px) {
-  const double f2 = focal_px * focal_px;
-  NormalEquations equations;
-  int entry = 0;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j, ++entry) {
-      equations.H(i, j) = f2 * static_cast<double>(sums.H[entry]);
-      equations.H(j, i) = equations.H(i, j);
-    }
-    equations.g[i] = focal_px * static_cast<double>(sums.g[i]);
-  }
-  return equations;
-}
 
 // One robust weight a point, on the scale of the median, so that points that do not match have no
 // say. Geman and McClure's against Cauchy's of the same efficiency: the drift of a car fell by a
@@ -108,10 +95,14 @@ NormalEquations accumulate(const KernelTable& kernels, const TemplatePoints& poi
   const float scale_squares =
       std::max(kLeastSquares,
                kScaleOfMedian * kScaleOfMedian * median_squares(residuals, points.count, visible));
+  const float inverse_scale = 1.0f / scale_squares;
   NormalSums sums;
-  kernels.normal_equations(points, residuals, static_cast<float>(focal_px), 1.0f / scale_squares,
-                           sums);
-  return unpack(sums, focal_px);
+  kernels.normal_equations(points, residuals, static_cast<float>(focal_px), inverse_scale, sums);
+  NormalEquations equations = {.H = unpack_information(sums, focal_px),
+                               .g = Vector6::Zero(),
+                               .inverse_scale = inverse_scale};
+  for (int i = 0; i < 6; ++i) equations.g[i] = focal_px * static_cast<double>(sums.g[i]);
+  return equations;
 }
 
 // Aligns one level, starting from and improving `alignment`. Leaves the residuals before the last
@@ -126,6 +117,7 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
     if (visible < kMinPoints) break;
     const NormalEquations sum = accumulate(kernels, points, residuals, visible, frame.focal_px);
     alignment.information = sum.H;
+    alignment.inverse_scale = sum.inverse_scale;
     const Vector6 xi = sum.H.ldlt().solve(sum.g);
     if (!xi.allFinite()) break;
     // r(ξ) ≈ r - ∇φ J ξ is least at ξ; the template moves by ξ, so the frame moves back.
@@ -142,6 +134,19 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
 }
 
 }  // namespace
+
+Matrix6 unpack_information(const NormalSums& sums, double focal_px) {
+  const double f2 = focal_px * focal_px;
+  Matrix6 H;
+  int entry = 0;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j, ++entry) {
+      H(i, j) = f2 * static_cast<double>(sums.H[entry]);
+      H(j, i) = H(i, j);
+    }
+  }
+  return H;
+}
 
 PointResiduals allocate_residuals(int points_per_level, Arena& arena) {
   const auto array = [&] {

@@ -76,6 +76,7 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
     build_template_level(kernels, chosen, left[l], rig.baseline_m, keyframe.levels[l]);
   }
   T_world_key = T_world_previous;
+  covariance.set_keyframe();
   estimate.is_keyframe = true;
   return true;
 }
@@ -118,6 +119,18 @@ void Odometry::State::report(const Se3& T_world_left, Estimate& estimate) {
       rig.T_body_left * T_world_reported.inverse() * T_world_left * T_left_body;
   estimate.reset_counter = reset_counter;
   T_world_reported = T_world_left;
+  report_covariance(estimate);
+}
+
+// A motion is known from one measured pose, or from where tracking starts anew, to the next.
+void Odometry::State::report_covariance(Estimate& estimate) {
+  const bool is_measured = estimate.status != TrackStatus::kLost;
+  estimate.cov_previous_body = is_measured && is_reported_measured
+                                   ? transport_covariance(covariance.motion(), rig.T_body_left)
+                                   : unknown_covariance();
+  estimate.cov_world_body =
+      is_measured ? transport_covariance(covariance.pose(), rig.T_body_left) : unknown_covariance();
+  is_reported_measured = is_measured || estimate.is_keyframe;
 }
 
 // The frame could not be aligned: hold the pose; after a while start again from here.
@@ -127,6 +140,7 @@ void Odometry::State::lose(const StereoFrame& frame, Estimate& estimate) {
   T_before_previous = Se3();
   if (++lost_in_a_row >= kLostFramesBeforeReset && make_keyframe(frame, estimate)) {
     ++reset_counter;
+    covariance.reset();
     previous_sequence = frame.sequence;
     lost_in_a_row = 0;
   }
@@ -158,6 +172,15 @@ Estimate Odometry::track(const StereoFrame& frame) {
   estimate.iterations = alignment.iterations;
   if (judgement.status == TrackStatus::kLost) return s.lose(frame, estimate), estimate;
 
+  {
+    StageTimer timer(s.read_clock, estimate, Stage::kTrack);
+    s.covariance.move(s.kernels,
+                      {.rig = s.rig,
+                       .finest = s.keyframe.levels[0],
+                       .alignment = alignment,
+                       .residuals = s.residuals},
+                      s.influences);
+  }
   s.accept(s.T_world_key * alignment.T_current_key.inverse(), frame.sequence);
   if (judgement.is_keyframe_due) s.make_keyframe(frame, estimate);
   s.report(s.T_world_previous, estimate);

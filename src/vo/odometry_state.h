@@ -4,6 +4,7 @@
 #include "base/arena.h"
 #include "vo/align.h"
 #include "vo/area_map.h"
+#include "vo/covariance.h"
 #include "vo/frame_pyramid.h"
 #include "vo/keyframe_template.h"
 #include "vo/match_stereo.h"
@@ -28,6 +29,7 @@ struct Odometry::State {
   DisparityPyramid disparities;
   PointSelector selector;
   PointResiduals residuals;
+  PointInfluences influences;
   KeyframeTemplate keyframe;
 
   Se3 T_world_key;        // World here: the first rectified left camera
@@ -38,6 +40,8 @@ struct Odometry::State {
   std::int64_t motion_gap = 1;  // frames that T_before_previous spans
   int lost_in_a_row = 0;
   int reset_counter = 0;
+  PoseCovariance covariance;
+  bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to
 
   State(const OdometryConfig& config_, const RectifiedRig& rig_, const KernelTable& kernels_,
         ReadClock read_clock_, std::size_t arena_bytes)
@@ -61,6 +65,7 @@ struct Odometry::State {
   void lose(const StereoFrame& frame, Estimate& estimate);
   void accept(const Se3& T_world_left, std::int64_t sequence);
   void report(const Se3& T_world_left, Estimate& estimate);
+  void report_covariance(Estimate& estimate);
   [[nodiscard]] Se3 predict(std::int64_t sequence) const;
 };
 
