@@ -60,7 +60,7 @@ Result<Run> prepare(const ReplayOptions& options) {
   const auto [frame, key] = truth->trajectory
                                 ? std::pair(truth->trajectory->frame, truth->trajectory->key)
                                 : std::pair(PoseFrame::kLeft, PoseKey::kRow);
-  auto outputs = RunOutputs::open(options.outputs, frame, key);
+  auto outputs = RunOutputs::open(options.outputs, frame, key, (*odometry)->rig().T_body_left);
   if (!outputs) return tl::unexpected(outputs.error());
   if (auto started = recording->source->start(); !started) {
     return tl::unexpected(started.error());
@@ -122,10 +122,11 @@ Result<void> play(Run& run, Pace pace) {
 }
 
 // Without figures for runs too short to compare; those tell nothing about the truth.
-Result<std::optional<Evaluation>> evaluate_run(const Run& run) {
+Result<std::optional<Evaluation>> evaluate_run(const Run& run, const TruthNoise& truth_noise) {
   constexpr std::size_t kFewestPoses = 3;
   if (!run.truth || run.outputs.trajectory().poses.size() < kFewestPoses) return std::nullopt;
-  auto evaluation = evaluate(*run.truth, run.outputs.trajectory());
+  auto evaluation =
+      evaluate(*run.truth, run.outputs.trajectory(), run.outputs.uncertainties(), truth_noise);
   if (evaluation) return *evaluation;
   return failure(evaluation.error().code, run.truth_name + ": " + evaluation.error().message);
 }
@@ -162,7 +163,7 @@ Result<int> replay(const ReplayOptions& options) {
 
   // Whatever went wrong on the way, what there is gets written and told first.
   RunReport report = report_run(*run, options);
-  const auto evaluation = evaluate_run(*run);
+  const auto evaluation = evaluate_run(*run, options.truth_noise);
   if (evaluation) report.evaluation = *evaluation;
   const auto closed = run->outputs.close();
   const auto stats_written = run->outputs.write_stats(format_statistics_json(report));

@@ -20,6 +20,7 @@ struct ReplayOptions {
   std::vector<ConfigSetting> settings;
   std::string kernels = "auto";
   std::string truth_path;  // empty: what the recording carries
+  TruthNoise truth_noise;
   Pace pace = Pace::kFast;
   OutputOptions outputs;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/run_outputs.h"
 
+#include "vo/covariance.h"
+
 namespace darkling {
 
 namespace {
@@ -22,7 +24,8 @@ Result<void> close_if_open(std::optional<OutputFile>& file) {
 
 }  // namespace
 
-Result<RunOutputs> RunOutputs::open(const OutputOptions& options, PoseFrame frame, PoseKey key) {
+Result<RunOutputs> RunOutputs::open(const OutputOptions& options, PoseFrame frame, PoseKey key,
+                                    const Se3& T_body_left) {
   if (!options.stats_path.empty() && options.stats_path == options.trajectory_path) {
     return failure(ExitCode::kUsage,
                    options.stats_path + ": is named by both --trajectory and " + "--stats");
@@ -31,6 +34,7 @@ Result<RunOutputs> RunOutputs::open(const OutputOptions& options, PoseFrame fram
   outputs.options_ = options;
   outputs.trajectory_.frame = frame;
   outputs.trajectory_.key = key;
+  outputs.T_pose_body_ = frame == PoseFrame::kLeft ? T_body_left.inverse() : Se3();
   if (auto opened = open_if_named(options.trajectory_path, outputs.trajectory_file_); !opened) {
     return tl::unexpected(opened.error());
   }
@@ -58,6 +62,10 @@ void RunOutputs::append(const Estimate& estimate) {
   trajectory_.poses.push_back(
       {.stamp = by_row ? frame_time_from_ns(estimate.sequence) : estimate.stamp,
        .T_world_pose = to_affine(of_left ? T_first_left : estimate.T_world_body)});
+  uncertainties_.push_back(
+      {.cov_motion = transport_covariance(estimate.cov_previous_body, T_pose_body_),
+       .cov_pose = transport_covariance(estimate.cov_world_body, T_pose_body_),
+       .reset_counter = estimate.reset_counter});
 }
 
 Result<void> RunOutputs::write_stats(const std::string& json) {

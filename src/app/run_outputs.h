@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/output_file.h"
 #include "app/sha256.h"
+#include "io/evaluate.h"
 #include "io/trajectory.h"
 #include "vo/estimate.h"
 
@@ -23,9 +25,10 @@ struct OutputOptions {
 class RunOutputs {
  public:
   // @param frame, key  of the trajectory kept for comparison.
+  // @param T_body_left  of the rig.
   // @return kUsage when a file cannot be written or both are the same.
   [[nodiscard]] static Result<RunOutputs> open(const OutputOptions& options, PoseFrame frame,
-                                               PoseKey key);
+                                               PoseKey key, const Se3& T_body_left);
 
   // One input frame, bad ones included.
   void append(const Estimate& estimate);
@@ -35,6 +38,8 @@ class RunOutputs {
   [[nodiscard]] Result<void> close();
 
   [[nodiscard]] const Trajectory& trajectory() const { return trajectory_; }
+  // Of the poses of trajectory(), one each.
+  [[nodiscard]] std::span<const PoseUncertainty> uncertainties() const { return uncertainties_; }
   // Rows for the summary.
   [[nodiscard]] std::vector<std::string> describe() const;
 
@@ -47,6 +52,8 @@ class RunOutputs {
   Sha256 kitti_rows_;
   std::optional<Se3> T_first_world_;  // First: the left camera at the first frame
   Trajectory trajectory_;
+  Se3 T_pose_body_;  // Pose: what the trajectory is of, Body or Left
+  std::vector<PoseUncertainty> uncertainties_;
 };
 
 }  // namespace darkling

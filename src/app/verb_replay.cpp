@@ -25,6 +25,7 @@ struct ReplayWords {
   std::string trajectory_path;
   std::string format = "kitti";
   std::string truth_path;
+  std::vector<double> truth_noise = {0.0, 0.0};  // as TruthNoise
   std::string stats_path;
   std::string pace = "fast";
   std::string kernels = "auto";
@@ -67,6 +68,7 @@ Result<ReplayOptions> understand(const ReplayWords& words) {
       .settings = settings,
       .kernels = words.kernels,
       .truth_path = words.truth_path,
+      .truth_noise = {.share = words.truth_noise[0], .angle_deg = words.truth_noise[1]},
       .pace = *is_fast ? Pace::kFast : Pace::kRecorded,
       .outputs = {.trajectory_path = words.trajectory_path,
                   .trajectory_format = *is_tum ? TrajectoryFormat::kTum : TrajectoryFormat::kKitti,
@@ -98,6 +100,9 @@ constexpr const char* kMore =
     "Trajectories: `kitti` rows are T_world_left of the rectified left camera, the first the\n"
     "identity, one for every input frame, bad ones included. `tum` rows are T_world_body with the\n"
     "source's own time stamps. The same input gives the same bytes, whatever the kernels.\n\n"
+    "NEES tells whether covariances keep what they promise: the mean of e' inverse(C) e / 6 of\n"
+    "errors e with covariance C, 1 where they are right, above where they promise too much. The\n"
+    "truth counts as exact unless --truth-noise says otherwise.\n\n"
     "A run that lost track on the way is done all the same and exits 0: the table says so.\n\n"
     "Examples:\n"
     "  darkling replay ~/kitti/06 --width 310 --trajectory 06.txt --stats 06.json\n"
@@ -133,6 +138,13 @@ void declare_output(CLI::App& command, ReplayWords& words) {
   command
       .add_option("--truth", words.truth_path, "Compare with this; default: the recording's own")
       ->type_name("FILE");
+  command
+      .add_option("--truth-noise", words.truth_noise,
+                  "Of true motions, for NEES: sigma per length or angle, besides in deg")
+      ->type_name("SHARE,DEG")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--stats", words.stats_path, "Write statistics here, as JSON")
       ->type_name("FILE");
   command.add_flag("--print-config", words.is_config_wanted,

@@ -108,9 +108,41 @@ double absolute_error_m(const Pairs& pairs) {
   return std::sqrt((R * estimate - truth).squaredNorm() / static_cast<double>(count));
 }
 
+// Adds the error ξ of the estimated motion from pair a to pair b: T_estimate = T_truth exp(ξ).
+void add_error(const PosePair& a, const PosePair& b, const Matrix6& covariance,
+               const TruthNoise& noise, NeesMean& nees) {
+  const auto se3 = [](const Eigen::Affine3d& T) { return Se3(T.rotation(), T.translation()); };
+  const Se3 T_a_b_truth = se3(a.truth.inverse() * b.truth);
+  const Vector6 xi = minus(se3(a.estimate.inverse() * b.estimate), T_a_b_truth);
+  nees.add(xi, covariance + truth_covariance(noise, T_a_b_truth, b.index - a.index));
+}
+
+void evaluate_consistency(const Pairs& pairs, std::span<const PoseUncertainty> uncertainties,
+                          const TruthNoise& noise, Evaluation& evaluation) {
+  NeesMean motion;
+  NeesMean pose;
+  std::size_t start = 0;  // of the path without a reset
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    const PoseUncertainty& at = uncertainties[pairs[i].index];
+    if (pairs[i].index == pairs[i - 1].index + 1) {
+      add_error(pairs[i - 1], pairs[i], at.cov_motion, noise, motion);
+    }
+    if (at.reset_counter != uncertainties[pairs[start].index].reset_counter) start = i;
+    if (i > start) add_error(pairs[start], pairs[i], at.cov_pose, noise, pose);
+  }
+  evaluation.nees_motion = motion.mean();
+  evaluation.nees_pose = pose.mean();
+}
+
 }  // namespace
 
 Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate) {
+  return evaluate(truth, estimate, {});
+}
+
+Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate,
+                            std::span<const PoseUncertainty> uncertainties,
+                            const TruthNoise& truth_noise) {
   const auto pairs = match_poses(truth, estimate);
   if (!pairs) return tl::unexpected(pairs.error());
   const std::vector<double> length_m = path_lengths(*pairs);
@@ -124,6 +156,9 @@ Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate)
   const MotionError end = motion_error(pairs->front(), pairs->back());
   evaluation.end_error_m = end.distance_m;
   evaluation.end_error_deg = end.angle_deg;
+  if (!uncertainties.empty()) {
+    evaluate_consistency(*pairs, uncertainties, truth_noise, evaluation);
+  }
   return evaluation;
 }
 

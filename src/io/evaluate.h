@@ -4,12 +4,21 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/result.h"
+#include "io/nees.h"
 #include "io/trajectory.h"
 
 namespace darkling {
+
+// Of one pose of a trajectory: right perturbations, as in vo/estimate.h, of its own frame.
+struct PoseUncertainty {
+  Matrix6 cov_motion;     // since the pose before
+  Matrix6 cov_pose;       // since the last reset
+  int reset_counter = 0;  // poses of different counts have nothing to do with each other
+};
 
 struct Evaluation {
   int matched_poses = 0;
@@ -24,6 +33,9 @@ struct Evaluation {
   double rpe_rmse_deg = 0.0;
   double end_error_m = 0.0;  // error of the motion from the first to the last matched pose
   double end_error_deg = 0.0;
+  std::optional<Nees> nees_motion = {};  // between consecutive poses that both have a match
+  std::optional<Nees> nees_pose =
+      {};  // since the first pose with a match, or the first after a reset
 };
 
 // Rows are matched by number, stamps to the nearest truth within 5 ms.
@@ -32,10 +44,17 @@ struct Evaluation {
 //         the message gives both ranges.
 [[nodiscard]] Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate);
 
+// The same with NEES.
+// @param uncertainties  of the poses of `estimate`, one each; or none, for no NEES.
+[[nodiscard]] Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate,
+                                          std::span<const PoseUncertainty> uncertainties,
+                                          const TruthNoise& truth_noise = {});
+
 // A true and an estimated pose of the same moment.
 struct PosePair {
   Eigen::Affine3d truth = Eigen::Affine3d::Identity();
   Eigen::Affine3d estimate = Eigen::Affine3d::Identity();
+  std::size_t index = 0;  // of the estimate
 };
 
 // The first half of evaluate().

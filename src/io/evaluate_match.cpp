@@ -64,11 +64,11 @@ Result<std::vector<PosePair>> match_poses(const Trajectory& truth, const Traject
   const std::int64_t tolerance = truth.key == PoseKey::kRow ? 0 : kStampToleranceNs;
 
   std::vector<PosePair> pairs;
-  for (const TimedPose& pose : estimate.poses) {
-    if (sorted.empty()) break;
+  for (std::size_t i = 0; i < estimate.poses.size() && !sorted.empty(); ++i) {
+    const TimedPose& pose = estimate.poses[i];
     const TimedPose& nearest = nearest_pose(sorted, pose.stamp);
     if (std::abs((nearest.stamp - pose.stamp).count()) > tolerance) continue;
-    pairs.push_back({.truth = nearest.T_world_pose, .estimate = pose.T_world_pose});
+    pairs.push_back({.truth = nearest.T_world_pose, .estimate = pose.T_world_pose, .index = i});
   }
   if (pairs.size() < kFewestMatches) {
     return failure(ExitCode::kBadInput,

@@ -30,6 +30,12 @@ void put_evaluation(Json& json, const std::optional<Evaluation>& evaluation) {
   json["drift_deg_per_m"] = drift(&Evaluation::drift_deg_per_m);
   json["rpe_rmse_m"] = figure(&Evaluation::rpe_rmse_m);
   json["rpe_rmse_deg"] = figure(&Evaluation::rpe_rmse_deg);
+  const auto nees = [&](std::optional<Nees> Evaluation::*member) {
+    const std::optional<Nees> value = evaluation ? (*evaluation).*member : std::nullopt;
+    return value ? Json(value->mean) : Json(nullptr);
+  };
+  json["nees_motion"] = nees(&Evaluation::nees_motion);
+  json["nees_pose"] = nees(&Evaluation::nees_pose);
   json["end_error_m"] = figure(&Evaluation::end_error_m);
   json["end_error_deg"] = figure(&Evaluation::end_error_deg);
   json["truth_path_m"] = figure(&Evaluation::path_m);

@@ -80,6 +80,13 @@ std::string memory_row(const RunReport& report) {
   return row("memory", content);
 }
 
+std::string nees_row(const char* label, const std::optional<Nees>& nees) {
+  if (!nees) return "";
+  return row(label,
+             text("%.2f (translation %.2f, rotation %.2f), %.1f %% beyond 3 sigma", nees->mean,
+                  nees->translation, nees->rotation, 100.0 * nees->share_beyond));
+}
+
 std::string evaluation_rows(const Evaluation& e) {
   std::string rows;
   if (e.drift_percent && e.drift_deg_per_m) {
@@ -89,6 +96,7 @@ std::string evaluation_rows(const Evaluation& e) {
   }
   rows += row("ATE", text("%.4f m", e.ate_rmse_m));
   rows += row("RPE", text("%.5f m, %.4f deg a frame", e.rpe_rmse_m, e.rpe_rmse_deg));
+  rows += nees_row("NEES motion", e.nees_motion) + nees_row("NEES pose", e.nees_pose);
   rows += row("end error",
               text("%.4f m, %.3f deg after %.2f m", e.end_error_m, e.end_error_deg, e.path_m));
   return rows;

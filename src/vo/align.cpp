@@ -70,11 +70,9 @@ float median_squares(const PointResiduals& residuals, int count, int visible) {
 // say. Geman and McClure's against Cauchy's of the same efficiency: the drift of a car fell by a
 // tenth (steps of 3.6 m: by a fifth); RPE of a drone rose by 2 to 5 %.
 NormalEquations accumulate(const KernelTable& kernels, const TemplatePoints& points,
-                           const PointResiduals& residuals, int visible, double focal_px) {
-  const float scale_squares = weight_scale_squares(residuals, points.count, visible);
+                           const PointResiduals& residuals, double focal_px, float inverse_scale) {
   NormalSums sums;
-  kernels.normal_equations(points, residuals, static_cast<float>(focal_px), 1.0f / scale_squares,
-                           sums);
+  kernels.normal_equations(points, residuals, static_cast<float>(focal_px), inverse_scale, sums);
   return unpack(sums, focal_px);
 }
 
@@ -88,7 +86,9 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
     const int visible = kernels.sample_residuals(points, make_warp(alignment.T_current_key, frame),
                                                  frame.planes, residuals);
     if (visible < kMinPoints) break;
-    const NormalEquations sum = accumulate(kernels, points, residuals, visible, frame.focal_px);
+    alignment.inverse_scale = 1.0f / weight_scale_squares(residuals, points.count, visible);
+    const NormalEquations sum =
+        accumulate(kernels, points, residuals, frame.focal_px, alignment.inverse_scale);
     alignment.information = sum.H;
     const Vector6 xi = sum.H.ldlt().solve(sum.g);
     if (!xi.allFinite()) break;

@@ -28,9 +28,11 @@ struct Alignment {
   AlignmentScore score;        // at the finest level that was aligned
   int iterations = 0;          // all levels together
   bool has_converged = false;  // the last step at the finest level was small enough
-  // Normal equations of the finest level at the solution, weighted; their inverse times the
-  // residual variance is the covariance of a right perturbation of T_current_key's inverse.
+  // Normal equations H of the finest level at the solution, weighted, for a right perturbation of
+  // T_current_key; and the scale of the weights, as normal_equations() takes it. What follows for
+  // the covariance is in vo/covariance.h.
   Matrix6 information = Matrix6::Zero();
+  float inverse_scale = 0.0f;
 };
 
 // Scratch of one alignment.

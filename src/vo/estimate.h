@@ -65,6 +65,12 @@ struct Estimate {
   // Motion since the previous Estimate, as measured. Poses follow a refinement of the keyframes
   // behind them little by little; that is no motion, and not in here.
   Se3 T_previous_body;
+  // Covariances of right perturbations, T = T_true exp(ξ), ξ = (translation, rotation) in Body: m²,
+  // m·rad, rad². Not known is 9999 on the diagonal and 0 beside it: of both while kLost, and of the
+  // motion when the previous Estimate was not measured or there is none. The pose's counts from
+  // where tracking started, at the first keyframe or at the last reset: there it is zero.
+  Matrix6 cov_previous_body = Matrix6::Zero();
+  Matrix6 cov_world_body = Matrix6::Zero();
   int point_count = 0;            // template points of the finest level seen in this frame
   double visible_fraction = 0.0;  // of the template points, 0…1
   double cost = 0.0;              // mean truncated descriptor distance, 0…1, absolute

@@ -80,6 +80,7 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
     if (l == 0 && config.refinement) add_to_window(chosen);
   }
   T_world_key = T_world_previous;
+  covariance.set_keyframe();
   estimate.is_keyframe = true;
   start_refinement();
   return true;
@@ -167,9 +168,21 @@ void Odometry::State::report(const Se3& T_world_left, Estimate& estimate) {
       rig.T_body_left * T_world_reported.inverse() * T_world_left * T_left_body;
   estimate.reset_counter = reset_counter;
   T_world_reported = T_world_left;
+  report_covariance(estimate);
   if (!std::exchange(is_refinement_news, false)) return;
   estimate.refinement = refinement;
   estimate.stage_times[static_cast<std::size_t>(Stage::kRefine)] = refinement_time;
+}
+
+// A motion is known from one measured pose, or from where tracking starts anew, to the next.
+void Odometry::State::report_covariance(Estimate& estimate) {
+  const bool is_measured = estimate.status != TrackStatus::kLost;
+  estimate.cov_previous_body = is_measured && is_reported_measured
+                                   ? transport_covariance(covariance.motion(), rig.T_body_left)
+                                   : unknown_covariance();
+  estimate.cov_world_body =
+      is_measured ? transport_covariance(covariance.pose(), rig.T_body_left) : unknown_covariance();
+  is_reported_measured = is_measured || estimate.is_keyframe;
 }
 
 // The frame could not be aligned: hold the pose; after a while start again from here.
@@ -180,6 +193,7 @@ void Odometry::State::lose(const StereoFrame& frame, Estimate& estimate) {
   if (++lost_in_a_row >= kLostFramesBeforeReset) window.count = 0;  // nothing leads to it from here
   if (lost_in_a_row >= kLostFramesBeforeReset && make_keyframe(frame, estimate)) {
     ++reset_counter;
+    covariance.reset();
     previous_sequence = frame.sequence;
     lost_in_a_row = 0;
   }
@@ -212,6 +226,15 @@ Estimate Odometry::track(const StereoFrame& frame) {
   estimate.iterations = alignment.iterations;
   if (judgement.status == TrackStatus::kLost) return s.lose(frame, estimate), estimate;
 
+  {
+    StageTimer timer(s.read_clock, estimate, Stage::kTrack);
+    s.covariance.move(s.kernels,
+                      {.rig = s.rig,
+                       .finest = s.keyframe.levels[0],
+                       .alignment = alignment,
+                       .residuals = s.residuals},
+                      s.influences);
+  }
   s.accept(s.T_world_key * alignment.T_current_key.inverse(), frame.sequence);
   if (judgement.is_keyframe_due) s.make_keyframe(frame, estimate);
   s.report(s.T_world_previous, estimate);

@@ -5,6 +5,7 @@
 #include "vo/align.h"
 #include "vo/area_map.h"
 #include "vo/carry_depth.h"
+#include "vo/covariance.h"
 #include "vo/frame_pyramid.h"
 #include "vo/keyframe_template.h"
 #include "vo/match_stereo.h"
@@ -32,6 +33,7 @@ struct Odometry::State {
   DisparityPyramid disparities;
   PointSelector selector;
   PointResiduals residuals;
+  PointInfluences influences;
   KeyframeTemplate keyframe;
   PointImage point_image;
   Window window;
@@ -54,6 +56,8 @@ struct Odometry::State {
   std::int64_t motion_gap = 1;  // frames that T_before_previous spans
   int lost_in_a_row = 0;
   int reset_counter = 0;
+  PoseCovariance covariance;
+  bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to
 
   State(const OdometryConfig& config_, const RectifiedRig& rig_, const KernelTable& kernels_,
         ReadClock read_clock_, RefinementRunner* runner_, std::size_t arena_bytes)
@@ -82,6 +86,7 @@ struct Odometry::State {
   void lose(const StereoFrame& frame, Estimate& estimate);
   void accept(const Se3& T_world_left, std::int64_t sequence);
   void report(const Se3& T_world_left, Estimate& estimate);
+  void report_covariance(Estimate& estimate);
   [[nodiscard]] Se3 predict(std::int64_t sequence) const;
 };
 

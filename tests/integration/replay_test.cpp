@@ -46,9 +46,11 @@ TEST_F(Replay, WritesEveryFixedKeyOfTheStatistics) {
   ASSERT_EQ(replay({"--stats", stats_}).status, 0);
   const auto json = read_json(stats_);
   for (const char* key :
-       {"frames", "keyframes", "lost_frames", "resets", "distance_m", "ate_rmse_m", "drift_percent",
-        "drift_deg_per_m", "rpe_rmse_m", "rpe_rmse_deg", "frame_ms", "stage_us", "arena_bytes",
-        "heap_calls_after_start", "peak_rss_bytes", "kernels", "width", "height",
+       {"frames",           "keyframes",    "lost_frames",   "resets",
+        "distance_m",       "ate_rmse_m",   "drift_percent", "drift_deg_per_m",
+        "rpe_rmse_m",       "rpe_rmse_deg", "nees_motion",   "nees_pose",
+        "frame_ms",         "stage_us",     "arena_bytes",   "heap_calls_after_start",
+        "peak_rss_bytes",   "kernels",      "width",         "height",
         "trajectory_sha256"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }

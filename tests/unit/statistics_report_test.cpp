@@ -40,15 +40,19 @@ Evaluation example_evaluation() {
           .drift_deg_per_m = 0.002,
           .ate_rmse_m = 0.11,
           .rpe_rmse_m = 0.012,
-          .rpe_rmse_deg = 0.03};
+          .rpe_rmse_deg = 0.03,
+          .nees_motion = Nees{.count = 8, .mean = 1.25},
+          .nees_pose = std::nullopt};
 }
 
 TEST(StatisticsJson, HasEveryFixedKey) {
   const Json json = Json::parse(format_statistics_json(example_report()));
   for (const char* key :
-       {"frames", "keyframes", "lost_frames", "resets", "distance_m", "ate_rmse_m", "drift_percent",
-        "drift_deg_per_m", "rpe_rmse_m", "rpe_rmse_deg", "frame_ms", "stage_us", "arena_bytes",
-        "heap_calls_after_start", "peak_rss_bytes", "kernels", "width", "height",
+       {"frames",           "keyframes",    "lost_frames",   "resets",
+        "distance_m",       "ate_rmse_m",   "drift_percent", "drift_deg_per_m",
+        "rpe_rmse_m",       "rpe_rmse_deg", "nees_motion",   "nees_pose",
+        "frame_ms",         "stage_us",     "arena_bytes",   "heap_calls_after_start",
+        "peak_rss_bytes",   "kernels",      "width",         "height",
         "trajectory_sha256"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
@@ -79,6 +83,8 @@ TEST(StatisticsJson, CarriesTheFiguresOfTheEvaluation) {
   EXPECT_EQ(json["ate_rmse_m"], 0.11);
   EXPECT_EQ(json["rpe_rmse_m"], 0.012);
   EXPECT_EQ(json["rpe_rmse_deg"], 0.03);
+  EXPECT_EQ(json["nees_motion"], 1.25);
+  EXPECT_TRUE(json["nees_pose"].is_null());
 }
 
 TEST(StatisticsJson, IsValidForANameThatIsNotUtf8) {
@@ -106,6 +112,8 @@ TEST(Summary, ShowsErrorsOnlyAgainstATruth) {
   EXPECT_THAT(format_summary(report), Not(HasSubstr("drift")));
   report.evaluation = example_evaluation();
   EXPECT_THAT(format_summary(report), HasSubstr("0.25 %, 0.0020 deg/m"));
+  EXPECT_THAT(format_summary(report), HasSubstr("NEES motion 1.25"));
+  EXPECT_THAT(format_summary(report), Not(HasSubstr("NEES pose")));
   report.evaluation->drift_percent.reset();
   EXPECT_THAT(format_summary(report), HasSubstr("shorter than 5 m"));
 }

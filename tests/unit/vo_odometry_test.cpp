@@ -7,6 +7,7 @@
 
 #include "support/kernel_cases.h"
 #include "support/synthetic_run.h"
+#include "vo/covariance.h"
 #include "vo/limits.h"
 #include "vo/odometry.h"
 
@@ -66,6 +67,9 @@ std::vector<double> numbers_of(const Estimate& e) {
     numbers.insert(numbers.end(), T.translation().data(), T.translation().data() + 3);
     const Eigen::Vector4d& q = T.rotation().coeffs();
     numbers.insert(numbers.end(), q.data(), q.data() + 4);
+  }
+  for (const Matrix6& covariance : {e.cov_previous_body, e.cov_world_body}) {
+    numbers.insert(numbers.end(), covariance.data(), covariance.data() + covariance.size());
   }
   return numbers;
 }
@@ -143,6 +147,34 @@ TEST(Odometry, GivesTheSameBitsOnEveryRunAndWithEveryKernel) {
   std::vector<Estimate> changed = expected;
   changed.back().T_world_left = plus(changed.back().T_world_left, Vector6::Constant(1e-15));
   EXPECT_FALSE(are_same_bits(changed, expected));  // the comparison sees a single bit
+}
+
+TEST(Odometry, SaysHowWellItKnowsMotionAndPose) {
+  const std::vector<Estimate> estimates = track_all(test::synthetic_run(kCorridor));
+  EXPECT_EQ(estimates[0].cov_world_body, Matrix6::Zero()) << "the first pose is World";
+  EXPECT_EQ(estimates[0].cov_previous_body, unknown_covariance()) << "there is no motion to it";
+  for (std::size_t i = 1; i < estimates.size(); ++i) {
+    for (const Matrix6& covariance :
+         {estimates[i].cov_previous_body, estimates[i].cov_world_body}) {
+      EXPECT_TRUE(is_known(covariance)) << i;
+      EXPECT_GT(covariance.determinant(), 0.0) << i;
+      EXPECT_LT(covariance.diagonal().maxCoeff(), 1e-3) << i;
+    }
+  }
+  EXPECT_GT(estimates.back().cov_world_body.trace(), 2.0 * estimates[1].cov_world_body.trace());
+}
+
+TEST(Odometry, KnowsNoMotionToOrFromAPoseThatWasNotMeasured) {
+  const SyntheticRun& run = test::synthetic_run(kCorridor);
+  std::vector<KeptFrame> frames = run.frames;
+  frames[4] = test::flat_frame(frames[4], 0);
+  const std::vector<Estimate> estimates = track_all(*make_odometry(run), frames);
+  ASSERT_EQ(estimates[4].status, TrackStatus::kLost);
+  EXPECT_EQ(estimates[4].cov_world_body, unknown_covariance());
+  EXPECT_EQ(estimates[4].cov_previous_body, unknown_covariance());
+  EXPECT_EQ(estimates[5].cov_previous_body, unknown_covariance());
+  EXPECT_TRUE(is_known(estimates[5].cov_world_body)) << "the keyframe is still there";
+  EXPECT_TRUE(is_known(estimates[6].cov_previous_body));
 }
 
 TEST(Odometry, HoldsThePoseInTheDarkAndGoesOnInTheLight) {
