@@ -18,8 +18,8 @@ constexpr int kMaxSteps = 3;  // of a round; the second is mostly below a hundre
 constexpr double kConvergedGain = 1e-4;
 // As few as make a frame lost.
 constexpr int kMinVisible = 30;
-// Comparisons of the newest image below which its pose is not believed. Of true ones 0.55 and more
-// agree: the scale is 0.8 of a median.
+// Share of comparisons that agree below which the newest keyframe's pose is not believed. Of true
+// ones 0.64 and more agree; of those 20 px off, somewhere else or with another image 0.15 at most.
 constexpr double kMinAgreeing = 0.3;
 // Tracking ends at a hundredth of a pixel of its own optimum; that of the window lies some tenths
 // beside it. A keyframe that would move this far is wrong, or the others are.
@@ -154,6 +154,7 @@ Refinement descend(const KernelTable& kernels, WindowEquations& equations, Windo
     linearise_window(kernels, window, equations);
     if (!(equations.cost < cost)) {
       restore(equations.before_step, window);
+      linearise_window(kernels, window, equations);
       break;
     }
     outcome = Refinement::kApplied;

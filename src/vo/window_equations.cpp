@@ -10,6 +10,11 @@ namespace darkling {
 
 namespace {
 
+// Σ r² of a comparison below which both images show the same: 40 grey levels, root mean square over
+// the planes. On the view's own scale any pose looks as good: of true comparisons a share of 0.28
+// to 0.36 had e < 1, of wrong ones 0.21 to 0.35, for the scale follows the median.
+constexpr float kAgreeingSquares = kPlaneCount * 40.0f * 40.0f;
+
 // A view at the poses to try.
 struct ViewGeometry {
   float eta[6];
@@ -125,12 +130,11 @@ double sum(const float* values, int count) {
   return total;
 }
 
-void count_newest(const PointResiduals& now, float inverse_scale, int count,
-                  WindowEquations& equations) {
+void count_newest(const PointResiduals& now, int count, WindowEquations& equations) {
   for (int i = 0; i < count; ++i) {
     equations.seen_in_newest += now.squares[i] >= 0.0f ? 1 : 0;
     equations.agreeing_in_newest +=
-        now.squares[i] >= 0.0f && now.squares[i] * inverse_scale < 1.0f ? 1 : 0;
+        now.squares[i] >= 0.0f && now.squares[i] < kAgreeingSquares ? 1 : 0;
   }
 }
 
@@ -161,7 +165,7 @@ void linearise_host(const KernelTable& kernels, const Window& window, int host,
     relative.H[later] = static_cast<double>(view.inverse_scale) * motion.H;
     relative.g[later] = static_cast<double>(view.inverse_scale) * motion.g;
     if (later + 1 == relative.count) {
-      count_newest(equations.residuals, view.inverse_scale, count, equations);
+      count_newest(equations.residuals, count, equations);
     }
   }
   equations.cost += sum(equations.cost_terms, count);

@@ -61,7 +61,7 @@ struct WindowEquations {
   std::array<double, kMaxWindowUnknowns> g = {};
   double cost = 0.0;
   int seen_in_newest = 0;      // comparisons in the newest keyframe, and …
-  int agreeing_in_newest = 0;  // … those with e < 1
+  int agreeing_in_newest = 0;  // … those that agree on an absolute scale
 };
 
 // @param equations  new.

@@ -59,8 +59,12 @@ WindowStages::WindowStages(const RectifiedRig& rig, const Layout& layout)
 
 void WindowStages::add(const PlaneWorld& world, const Se3& T_world_true, const Se3& T_world_key) {
   world.render(rig_, T_world_true, eye_.grey());
-  eye_.prepare(kernels_);
   template_.know_disparities(world, T_world_true);
+  add_seen(T_world_key);
+}
+
+void WindowStages::add_seen(const Se3& T_world_key) {
+  eye_.prepare(kernels_);
   const PyramidLevel& level = eye_.pyramid()[0];
   const auto chosen =
       select_points(kernels_, level, template_.disparities_at(0), template_.selector());

@@ -2,7 +2,7 @@
 // A window of keyframes with memory of its own, in a world whose truth is known.
 #pragma once
 
-#include <span>
+#include <algorithm>
 #include <vector>
 
 #include "support/plane_world.h"
@@ -37,6 +37,15 @@ class WindowStages {
   void add(const PlaneWorld& world, const Se3& T_world_true) {
     add(world, T_world_true, T_world_true);
   }
+  // At the identity before a painting, in which everything has one disparity.
+  // @param level  (x, y) → grey level.
+  template <class Level>
+  void add_painting(const Level& level, float disparity_px) {
+    paint(eye_.grey(), level);
+    const ImageView<float> disparity = template_.disparity();
+    for (int y = 0; y < rig_.height; ++y) std::fill_n(disparity.row(y), rig_.width, disparity_px);
+    add_seen(Se3());
+  }
   [[nodiscard]] Refinement refine() { return refine(kernels_); }
   [[nodiscard]] Refinement refine(const KernelTable& kernels) {
     return refine_window(kernels, eye_.pyramid()[0], equations_, window_);
@@ -50,6 +59,9 @@ class WindowStages {
   [[nodiscard]] WindowEquations& equations() { return equations_; }
 
  private:
+  // What was painted, with the disparities that are known of it.
+  void add_seen(const Se3& T_world_key);
+
   RectifiedRig rig_;
   Layout layout_;
   KernelTable kernels_;
