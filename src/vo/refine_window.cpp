@@ -139,9 +139,21 @@ Refinement judge_newest(const WindowEquations& equations) {
   return Refinement::kApplied;
 }
 
-// Steps until the cost falls no more.
-// @return kApplied, kNoGain or what is wrong with the equations.
-Refinement descend(const KernelTable& kernels, WindowEquations& equations, Window& window) {
+// What is known of each point after the last linearisation.
+void keep_information(const WindowEquations& equations, Window& window) {
+  for (int h = 0; h < window.count; ++h) {
+    WindowKeyframe& keyframe = window.keyframes()[h];
+    const DepthEquations& depths = equations.depths[h];
+    for (int i = 0; i < keyframe.points.count; ++i) {
+      keyframe.information[i] = 1.0f / depths.H[i];
+      keyframe.inlier_ratio[i] = (1.0f + depths.agreeing[i]) / (2.0f + depths.compared[i]);
+    }
+  }
+}
+
+}  // namespace
+
+Refinement descend_window(const KernelTable& kernels, WindowEquations& equations, Window& window) {
   Refinement outcome = Refinement::kNoGain;
   linearise_window(kernels, window, equations);
   if (const Refinement seen = judge_newest(equations); seen != Refinement::kApplied) return seen;
@@ -163,27 +175,13 @@ Refinement descend(const KernelTable& kernels, WindowEquations& equations, Windo
   return outcome;
 }
 
-// What is known of each point after the last linearisation.
-void keep_information(const WindowEquations& equations, Window& window) {
-  for (int h = 0; h < window.count; ++h) {
-    WindowKeyframe& keyframe = window.keyframes()[h];
-    const DepthEquations& depths = equations.depths[h];
-    for (int i = 0; i < keyframe.points.count; ++i) {
-      keyframe.information[i] = 1.0f / depths.H[i];
-      keyframe.inlier_ratio[i] = (1.0f + depths.agreeing[i]) / (2.0f + depths.compared[i]);
-    }
-  }
-}
-
-}  // namespace
-
 Refinement refine_window(const KernelTable& kernels, const PyramidLevel& left,
                          WindowEquations& equations, Window& window) {
   save(window, equations.at_start);
   Refinement outcome = Refinement::kUnknown;
   for (int round = 0; round < kRounds; ++round) {
     observe_newest(kernels, left, window);
-    const Refinement now = descend(kernels, equations, window);
+    const Refinement now = descend_window(kernels, equations, window);
     if (now == Refinement::kNoGain && round > 0) break;
     outcome = now;
     if (outcome != Refinement::kApplied) break;
