@@ -89,7 +89,7 @@ void add_view(const TemplatePoints& points, const WindowView& view, const ViewGe
     H[i] += SJu * Jsu + SJv * Jsv;
     g[i] += w * (bx * Jsu + by * Jsv);
     compared[i] += seen;
-    agreeing[i] += e < 1.0f ? seen : 0.0f;
+    agreeing[i] += squares < kAgreeingSquares ? seen : 0.0f;
     C[0][i] = SJu * s;
     C[1][i] = SJv * s;
     C[2][i] = -(SJu * X + SJv * Y) * s;

@@ -107,18 +107,22 @@ TEST(RefineWindow, GivesTheSameBytesWithEveryKernel) {
   }
 }
 
+// In a world where every comparison is true.
 TEST(RefineWindow, KnowsMoreOfADepthThanStereoAlone) {
   const test::PlaneWorld world;
   PlaneWindow stages(world);
   ASSERT_EQ(stages.refine(), Refinement::kApplied);
   const WindowKeyframe& oldest = stages.window().keyframes()[0];
   int better = 0;
+  int trusted = 0;
   for (int i = 0; i < oldest.points.count; ++i) {
     better += oldest.information[i] > oldest.stereo_information[i] ? 1 : 0;
+    trusted += oldest.inlier_ratio[i] > 0.5f ? 1 : 0;
     ASSERT_GE(oldest.inlier_ratio[i], 1.0f / 6.0f);  // four comparisons at most, none agrees
     ASSERT_LE(oldest.inlier_ratio[i], 5.0f / 6.0f);
   }
   EXPECT_GT(better, oldest.points.count * 3 / 4);
+  EXPECT_GT(trusted, oldest.points.count / 2);
 }
 
 void expect_information_of_estimate(PlaneWindow& stages) {
