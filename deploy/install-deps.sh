@@ -11,8 +11,8 @@ set -euo pipefail
 here="$(cd "$(dirname "$0")" && pwd)"
 case "${1:-test}" in
   build) groups='^build$' ;;
-  test) groups='^(build|test)$' ;;
-  cross) groups='^(build|test|cross)$' ;;
+  test) groups='^(build|test|native)$' ;;
+  cross) groups='^(build|test|native|cross)$' ;;
   measure) groups='^(build|measure)$' ;;
   *)
     echo "install-deps.sh: unknown group \`$1\`; use build, test, cross or measure" >&2

@@ -18,8 +18,8 @@ constexpr int kMaxSteps = 3;  // of a round; the second is mostly below a hundre
 constexpr double kConvergedGain = 1e-4;
 // As few as make a frame lost.
 constexpr int kMinVisible = 30;
-// Comparisons of the newest image below which its pose is not believed. Of true ones 0.55 and more
-// agree: the scale is 0.8 of a median.
+// Share of comparisons that agree below which the newest keyframe's pose is not believed. Of true
+// ones 0.64 and more agree; of those 20 px off, somewhere else or with another image 0.15 at most.
 constexpr double kMinAgreeing = 0.3;
 // Tracking ends at a hundredth of a pixel of its own optimum; that of the window lies some tenths
 // beside it. A keyframe that would move this far is wrong, or the others are.
@@ -139,29 +139,6 @@ Refinement judge_newest(const WindowEquations& equations) {
   return Refinement::kApplied;
 }
 
-// Steps until the cost falls no more.
-// @return kApplied, kNoGain or what is wrong with the equations.
-Refinement descend(const KernelTable& kernels, WindowEquations& equations, Window& window) {
-  Refinement outcome = Refinement::kNoGain;
-  linearise_window(kernels, window, equations);
-  if (const Refinement seen = judge_newest(equations); seen != Refinement::kApplied) return seen;
-  for (int i = 0; i < kMaxSteps; ++i) {
-    const double cost = equations.cost;
-    const std::optional<Unknowns> step = solve(window.count, equations);
-    if (!step) return Refinement::kIllConditioned;
-    save(window, equations.before_step);
-    move(*step, equations, window);
-    linearise_window(kernels, window, equations);
-    if (!(equations.cost < cost)) {
-      restore(equations.before_step, window);
-      break;
-    }
-    outcome = Refinement::kApplied;
-    if (cost - equations.cost < kConvergedGain * cost) break;
-  }
-  return outcome;
-}
-
 // What is known of each point after the last linearisation.
 void keep_information(const WindowEquations& equations, Window& window) {
   for (int h = 0; h < window.count; ++h) {
@@ -176,13 +153,35 @@ void keep_information(const WindowEquations& equations, Window& window) {
 
 }  // namespace
 
+Refinement descend_window(const KernelTable& kernels, WindowEquations& equations, Window& window) {
+  Refinement outcome = Refinement::kNoGain;
+  linearise_window(kernels, window, equations);
+  if (const Refinement seen = judge_newest(equations); seen != Refinement::kApplied) return seen;
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const double cost = equations.cost;
+    const std::optional<Unknowns> step = solve(window.count, equations);
+    if (!step) return Refinement::kIllConditioned;
+    save(window, equations.before_step);
+    move(*step, equations, window);
+    linearise_window(kernels, window, equations);
+    if (!(equations.cost < cost)) {
+      restore(equations.before_step, window);
+      linearise_window(kernels, window, equations);
+      break;
+    }
+    outcome = Refinement::kApplied;
+    if (cost - equations.cost < kConvergedGain * cost) break;
+  }
+  return outcome;
+}
+
 Refinement refine_window(const KernelTable& kernels, const PyramidLevel& left,
                          WindowEquations& equations, Window& window) {
   save(window, equations.at_start);
   Refinement outcome = Refinement::kUnknown;
   for (int round = 0; round < kRounds; ++round) {
     observe_newest(kernels, left, window);
-    const Refinement now = descend(kernels, equations, window);
+    const Refinement now = descend_window(kernels, equations, window);
     if (now == Refinement::kNoGain && round > 0) break;
     outcome = now;
     if (outcome != Refinement::kApplied) break;

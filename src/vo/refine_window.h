@@ -22,4 +22,10 @@ namespace darkling {
 [[nodiscard]] Refinement refine_window(const KernelTable& kernels, const PyramidLevel& left,
                                        WindowEquations& equations, Window& window);
 
+// One round of it: at most kMaxSteps steps with what was seen before, without a look at an image.
+// @return kApplied, kNoGain, or what is wrong with the newest keyframe or the equations; of a step
+//         that did not lower the cost nothing is left, and the equations are those of the window.
+[[nodiscard]] Refinement descend_window(const KernelTable& kernels, WindowEquations& equations,
+                                        Window& window);
+
 }  // namespace darkling

@@ -43,7 +43,7 @@ struct WindowEstimate {
 struct DepthEquations {
   float* H = nullptr;  // of the depth; its inverse after elimination
   float* g = nullptr;
-  float* agreeing = nullptr;  // comparisons with e < 1, and …
+  float* agreeing = nullptr;  // comparisons that agree on an absolute scale, and …
   float* compared = nullptr;  // … all
   // H of depth and the motion η against each later keyframe: [keyframes later - 1][component]
   std::array<std::array<float*, 6>, kMaxWindowKeyframes - 1> C = {};
@@ -61,7 +61,7 @@ struct WindowEquations {
   std::array<double, kMaxWindowUnknowns> g = {};
   double cost = 0.0;
   int seen_in_newest = 0;      // comparisons in the newest keyframe, and …
-  int agreeing_in_newest = 0;  // … those with e < 1
+  int agreeing_in_newest = 0;  // … those that agree on an absolute scale
 };
 
 // @param equations  new.
