@@ -29,8 +29,8 @@ struct Comparison {
 
 // Three numbers whose sum of squares is e: of the eight planes' residuals, two along the gradients
 // of the patch and one for all that no motion explains.
-[[nodiscard]] Vector3 residual(const Window& window, const Comparison& comparison,
-                               const Se3& T_world_host, const Se3& T_world_later, double depth);
+[[nodiscard]] Vector3 residual(const Window& window, const Comparison& at, const Se3& T_world_host,
+                               const Se3& T_world_later, double depth);
 
 // Σ e / (1 + e).
 [[nodiscard]] double cost_of(const Window& window, const WindowState& state);
