@@ -31,7 +31,7 @@ struct Statistics {
   std::int64_t bad_frames = 0;   // no usable pair: skipped
   std::int64_t keyframes = 0;
   std::int64_t resets = 0;
-  double distance_m = 0.0;                // sum of the estimated steps
+  double distance_m = 0.0;                                      // sum of the estimated steps
   std::array<std::int64_t, kRefinementCount> refinements = {};  // by what became of them
   std::optional<double> frame_period_ms;  // mean distance of the stamps; none where that is <= 0
   std::array<std::int64_t, kReasonCount> reasons = {};           // frames that had the reason

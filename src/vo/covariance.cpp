@@ -24,6 +24,10 @@ constexpr int kMaxTiles = 2 * kTiles;  // with those that the border cuts, up to
 // lights.
 constexpr float kNoiseOfGram = 0.2f;
 
+// Where so much is taken from H that nothing certain is left, B is this share of H: what it is
+// elsewhere, when variances are promised by H alone and come out 2 to 3 times too small.
+constexpr double kShareOfInformation = 0.6;
+
 // From keyframe to keyframe errors are not quite independent, as the next sees the same surfaces:
 // NEES at the ends of runs was 1.8 where that of their motions was 1.1.
 constexpr double kKeyframeFactor = 1.6;
@@ -198,7 +202,8 @@ AlignmentCovariances estimate_covariances(const KernelTable& kernels, const Alig
     std::fill_n(influences.cx_before, frame.finest.points.count, 0.0f);
     std::fill_n(influences.cy_before, frame.finest.points.count, 0.0f);
   }
-  const Eigen::LLT<Matrix6> B(bread(kernels, frame, influences));
+  Eigen::LLT<Matrix6> B(bread(kernels, frame, influences));
+  if (B.info() != Eigen::Success) B.compute(kShareOfInformation * frame.alignment.information);
   if (B.info() != Eigen::Success) return {unknown_covariance(), unknown_covariance()};
   sum_tiles(frame, influences);
   const Matrix6 inverse_B = B.solve(Matrix6::Identity());

@@ -151,6 +151,13 @@ void keep_information(const WindowEquations& equations, Window& window) {
   }
 }
 
+// What was refused is not to pull at later refinements either.
+void forget_newest_views(Window& window) {
+  for (int h = 0; h + 1 < window.count; ++h) {
+    window.keyframes()[h].views[window.count - 2 - h].visible_count = 0;
+  }
+}
+
 }  // namespace
 
 Refinement descend_window(const KernelTable& kernels, WindowEquations& equations, Window& window) {
@@ -192,9 +199,10 @@ Refinement refine_window(const KernelTable& kernels, const PyramidLevel& left,
   }
   if (outcome == Refinement::kApplied) {
     keep_information(equations, window);
-  } else {
-    restore(equations.at_start, window);
+    return outcome;
   }
+  restore(equations.at_start, window);
+  if (outcome != Refinement::kNoGain) forget_newest_views(window);
   return outcome;
 }
 

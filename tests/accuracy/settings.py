@@ -3,6 +3,7 @@
 import subprocess
 
 WIDTHS_PX = (96, 128, 160, 240, 320, 480, 640)
+UNCERTAINTY_WIDTHS_PX = (160, 320)
 STRIDES = (1, 2, 3)
 STRIDE_RECORDINGS = ("kitti_06", "euroc_mh01_a")
 
@@ -21,7 +22,7 @@ ABLATIONS = (
     ("window of 3 keyframes", "window_keyframes=3"),
     ("window of 7 keyframes", "window_keyframes=7"),
     ("200 window points", "window_points=200"),
-    ("1600 window points", "window_points=1600"),
+    ("1000 window points", "window_points=1000"),
 )
 
 

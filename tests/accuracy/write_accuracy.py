@@ -108,6 +108,17 @@ class Measured:
         return table(["recording", "every n-th frame", "frames", "drift, %", "deg/m", "RPE, mm", "ATE, mm",
                       "degraded, lost"], rows)
 
+    def uncertainty(self):
+        """Of rendered drives: other truths are less exact than what is measured."""
+        rows = []
+        for run in self.width_runs():
+            f = self.figures[run]
+            if not run.recording.scene or run.width_px not in settings.UNCERTAINTY_WIDTHS_PX:
+                continue
+            cells = [or_nothing(f[key], lambda n: f"{n:.2f}") for key in ("nees_motion", "nees_pose")]
+            rows.append([run.recording.name, f"{f['width']}x{f['height']}"] + cells)
+        return table(["recording", "thumbnail", "motions", "poses"], rows)
+
     def plot(self, folder):
         folder.mkdir(exist_ok=True)
         plots.plot_widths(folder / "width.png", {

@@ -18,7 +18,7 @@ struct RideCounts {
   int resets = 0;
   int skipped = 0;
   int refinements = 0;  // applied
-  int recoveries = 0;  // valid straight after lost, without a reset between
+  int recoveries = 0;   // valid straight after lost, without a reset between
 };
 
 // Drives back and forth in one place, loses pairs, goes through darkness and noise, wakes up in

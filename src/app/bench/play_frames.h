@@ -12,8 +12,8 @@
 
 namespace darkling {
 
-// What the odometry spent on one frame: time that its thread had of the processor. The refinement of
-// the keyframe before it is done between frames, and in no frame's time.
+// What the odometry spent on one frame: time that its thread had of the processor. The refinement
+// of the keyframe before it is done between frames, and in no frame's time.
 struct PlayedFrame {
   bool is_keyframe = false;
   double frame_us = 0.0;
