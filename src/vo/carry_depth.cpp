@@ -58,8 +58,8 @@ class Projection {
                            v < static_cast<float>(level_.grey.height - 1);
     if (!is_inside) return std::nullopt;  // also what is no number
     const float disparity = b * s * f / q.z();
-    // d' / d = f / (q.z) does not depend on s but through q.z: ∂d'/∂s = b f (f-part of q.z) / q.z².
-    const float gain = f / q.z();
+    // The derivative of d / b = s f / q_z, with q_z = (R (x, y, f))_z + t_z s.
+    const float gain = f * (q.z() - t_[h].z() * s) / (q.z() * q.z());
     return CarriedPoint{u, v, disparity,
                         gain * gain * b * b * kCostOfInformation / host.information[i]};
   }

@@ -24,7 +24,12 @@ Result<RectifiedRig> choose_thumbnail(const OdometryConfig& config, const Stereo
 }  // namespace
 
 Odometry::Odometry(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Odometry::~Odometry() = default;
+// A refinement at work elsewhere uses the state.
+Odometry::~Odometry() {
+  if (state_ != nullptr && state_->is_refinement_due && state_->runner != nullptr) {
+    (void)state_->runner->wait();
+  }
+}
 const RectifiedRig& Odometry::rig() const {
   return state_->rig;
 }

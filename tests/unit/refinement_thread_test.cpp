@@ -94,6 +94,44 @@ bool are_same(const Played& a, const Played& b) {
   return true;
 }
 
+// Notes in what order things happen, and lets a job wait until it is waited for.
+class LateRunner final : public RefinementRunner {
+ public:
+  void start(Job job, void* context) override {
+    job_ = job;
+    context_ = context;
+  }
+  bool wait() override {
+    if (job_ == nullptr) return true;
+    job_(context_);
+    job_ = nullptr;
+    ++done;
+    return false;
+  }
+  [[nodiscard]] bool is_waiting() const { return job_ != nullptr; }
+  int done = 0;
+
+ private:
+  Job job_ = nullptr;
+  void* context_ = nullptr;
+};
+
+TEST(Refinement, IsWaitedForBeforeTheOdometryGoes) {
+  const test::SyntheticRun& run = test::synthetic_run(kMine);
+  LateRunner runner;
+  auto odometry =
+      Odometry::create({.width_px = 160}, run.rig, KernelTable(), read_monotonic_clock, &runner);
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  for (std::size_t i = 0; i < run.frames.size() && !runner.is_waiting(); ++i) {
+    (void)(*odometry)->track(run.frames[i].at(static_cast<std::int64_t>(i)));
+  }
+  ASSERT_TRUE(runner.is_waiting());
+  const int before = runner.done;
+  odometry->reset();
+  EXPECT_FALSE(runner.is_waiting());
+  EXPECT_EQ(runner.done, before + 1);
+}
+
 TEST(Refinement, GivesTheSamePosesWhereverAndWheneverItIsComputed) {
   const Played expected = play(nullptr, false);
   EXPECT_GE(expected.applied, 2);
