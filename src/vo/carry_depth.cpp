@@ -2,7 +2,6 @@
 #include "vo/carry_depth.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -94,12 +93,13 @@ std::optional<CarriedPoint> nearest_point(const PointImage& image, const Project
     for (int u = std::max(x - 1, 0); u <= std::min(x + 1, image.width - 1); ++u) {
       if (image.at(u, v) == 0) continue;
       std::optional<CarriedPoint> point = project(image.at(u, v) - 1);
-      const float distance =
-          std::hypot(point->u - static_cast<float>(x), point->v - static_cast<float>(y));
-      if (distance >= least) continue;
-      least = distance;
+      const float du = point->u - static_cast<float>(x);
+      const float dv = point->v - static_cast<float>(y);
+      const float distance_squared = du * du + dv * dv;
+      if (distance_squared >= least) continue;
+      least = distance_squared;
       nearest = point;
-      nearest->variance_px2 += kSlope * kSlope * distance * distance;
+      nearest->variance_px2 += kSlope * kSlope * distance_squared;
     }
   }
   return nearest;
