@@ -2,6 +2,8 @@
 #include "vo/carry_depth.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -78,7 +80,7 @@ void mark_points(const Window& window, const Projection& project, const PointIma
       const int number = h * kMaxWindowPoints + i;
       const std::optional<CarriedPoint> point = project(number);
       if (!point) continue;
-      image.at(static_cast<int>(point->u + 0.5f), static_cast<int>(point->v + 0.5f)) =
+      image.at(static_cast<int>(std::lround(point->u)), static_cast<int>(std::lround(point->v))) =
           static_cast<std::uint16_t>(number + 1);
     }
   }

@@ -141,5 +141,27 @@ TEST(Refinement, GivesTheSamePosesWhereverAndWheneverItIsComputed) {
   EXPECT_TRUE(are_same(play(&thread, true), expected));
 }
 
+// A refinement moves the pose, not the vehicle: little by little, and in no motion.
+TEST(Refinement, IsFollowedByThePoseInSmallStepsBesideTheMotions) {
+  constexpr double kMaxStep = 1e-3;  // m and rad
+  const test::SyntheticRun& run = test::synthetic_run(kMine);
+  const auto odometry =
+      Odometry::create({.width_px = 160}, run.rig, KernelTable(), read_monotonic_clock);
+  ASSERT_TRUE(odometry) << odometry.error().message;
+  Se3 T_world_before;
+  double largest = 0.0;
+  int refined = 0;
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    const Estimate e = (*odometry)->track(run.frames[i].at(static_cast<std::int64_t>(i)));
+    const Vector6 beside = minus(T_world_before * e.T_previous_body, e.T_world_body);
+    EXPECT_LT(beside.norm(), kMaxStep) << e.sequence;
+    largest = std::max(largest, beside.norm());
+    refined += e.refinement == Refinement::kApplied ? 1 : 0;
+    T_world_before = e.T_world_body;
+  }
+  EXPECT_GE(refined, 1);
+  EXPECT_GT(largest, 1e-9);
+}
+
 }  // namespace
 }  // namespace darkling

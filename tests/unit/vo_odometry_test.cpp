@@ -120,24 +120,6 @@ TEST(Odometry, ReportsMotionsThatMultiplyToThePoseWithoutRefinement) {
   }
 }
 
-// A refinement moves the pose, not the vehicle: little by little, and in no motion.
-TEST(Odometry, LetsThePoseFollowARefinementInSmallStepsBesideTheMotions) {
-  constexpr double kMaxStep = 5e-4;  // m and rad
-  const SyntheticRun& run = test::synthetic_run(kCorridor);
-  Se3 T_world_before;
-  double largest = 0.0;
-  int refined = 0;
-  for (const Estimate& e : track_all(run)) {
-    const Vector6 beside = minus(T_world_before * e.T_previous_body, e.T_world_body);
-    EXPECT_LT(beside.norm(), kMaxStep) << e.sequence;
-    largest = std::max(largest, beside.norm());
-    refined += e.refinement == Refinement::kApplied ? 1 : 0;
-    T_world_before = e.T_world_body;
-  }
-  EXPECT_GE(refined, 1);
-  EXPECT_GT(largest, 1e-9);
-}
-
 TEST(Odometry, GivesTheSameBitsOnEveryRunAndWithEveryKernel) {
   const SyntheticRun& run = test::synthetic_run(kCorridor);
   const std::vector<Estimate> expected = track_all(run);
