@@ -72,10 +72,10 @@ void allocate_window(const RectifiedRig& rig, const OdometryConfig& config, Aren
 
 // Appends a keyframe with points of its template, evenly taken from all of them; the oldest leaves
 // when the window is full.
-// @param points  of the finest level, with the depths that are thought best.
+// @param from    of the finest level, with the depths that are thought best.
 // @param stereo  the candidates they were made of: their disparities are what the own right image
 //                says, and no more.
-void add_keyframe(const Se3& T_world_key, const TemplatePoints& points,
+void add_keyframe(const Se3& T_world_key, const TemplatePoints& from,
                   std::span<const PointSelector::Candidate> stereo, Window& window);
 
 }  // namespace darkling
