@@ -71,17 +71,17 @@ void eliminate_depths(const RelativeEquations& relative, const DepthEquations& d
       const Block& Ad_b = relative.Ad_host_later[b];
       const Block H = eliminate(relative, depths, point_count, a, b);
       const Block H_b = H * Ad_b;
-      const Block a_H = Ad_a.transpose() * H;
-      const Block a_H_b = Ad_a.transpose() * H_b;
+      const Block aH = Ad_a.transpose() * H;
+      const Block aH_b = Ad_a.transpose() * H_b;
       system.add(host, host, H);
       system.add(host, host + b + 1, -H_b);
-      system.add(host + a + 1, host, -a_H);
-      system.add(host + a + 1, host + b + 1, a_H_b);
+      system.add(host + a + 1, host, -aH);
+      system.add(host + a + 1, host + b + 1, aH_b);
       if (a == b) continue;  // else the transposed of all four
       system.add(host, host, H.transpose());
       system.add(host + b + 1, host, -H_b.transpose());
-      system.add(host, host + a + 1, -a_H.transpose());
-      system.add(host + b + 1, host + a + 1, a_H_b.transpose());
+      system.add(host, host + a + 1, -aH.transpose());
+      system.add(host + b + 1, host + a + 1, aH_b.transpose());
     }
   }
 }
