@@ -18,7 +18,8 @@ namespace darkling {
 // @pre window.count >= 2.
 // @return kApplied, and the window is changed; else it is as it was, but for what the newest image
 //         shows.
-// Cost: 1 ms for 5 keyframes of 400 points; bounded by kRounds and kMaxSteps.
+// Cost: 1.7 ms for 5 keyframes of 400 points on a busy x86-64 core; bounded by kRounds and
+// kMaxSteps.
 [[nodiscard]] Refinement refine_window(const KernelTable& kernels, const PyramidLevel& left,
                                        WindowEquations& equations, Window& window);
 

@@ -56,8 +56,8 @@ struct WindowEquations {
   float* cost_terms = nullptr;
   WindowEstimate at_start;
   WindowEstimate before_step;
-  std::span<double>
-      H;  // of the keyframes' poses, depths eliminated: kMaxWindowUnknowns² row by row
+  // Of the keyframes' poses, depths eliminated: kMaxWindowUnknowns² row by row.
+  std::span<double> H;
   std::array<double, kMaxWindowUnknowns> g = {};
   double cost = 0.0;
   int seen_in_newest = 0;      // comparisons in the newest keyframe, and …
