@@ -103,6 +103,23 @@ INSTANTIATE_TEST_SUITE_P(Odometry, EachSpoiltRun,
                                            SpoiltRun{"WhiteAfterThree", white_after_three}),
                          [](const auto& tested) { return tested.param.name; });
 
+// One seed says little: of 440 alignments of noise to noise the best looks much better than most.
+TEST(PureNoise, IsNeverValidWhateverItsSeed) {
+  constexpr unsigned kSeeds = 16;
+  const SyntheticRun& run = test::synthetic_run(kCorridor);
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    const auto odometry = Odometry::create({.width_px = 96}, run.rig, KernelTable(), stopped_clock);
+    ASSERT_TRUE(odometry);
+    for (unsigned i = 0; i < run.frames.size(); ++i) {
+      const KeptFrame frame = test::noise_frame(run.frames[i], 1000 * seed + i);
+      const Estimate estimate = (*odometry)->track(frame.at(i));
+      if (i == 0) continue;  // where it starts is the origin, whatever is seen
+      EXPECT_NE(estimate.status, TrackStatus::kValid)
+          << "seed " << seed << " frame " << i << " cost " << estimate.cost;
+    }
+  }
+}
+
 TEST(ConfidentAndWrong, IsNoticed) {
   Estimate estimate;
   estimate.status = TrackStatus::kValid;
