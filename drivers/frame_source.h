@@ -78,6 +78,21 @@ struct SourceStats {
   std::int64_t unpaired = 0;
   // Of the delivered: stamps that repeat or go back. Tracking goes by sequence and does not mind.
   std::int64_t stamps_not_increasing = 0;
+  // Not in any of the above, because the device never handed them out: gaps in its own numbers.
+  std::int64_t dropped_by_device = 0;
+  std::int64_t device_errors = 0;  // buffers that the device marked as bad
+};
+
+// Where a camera's stamps come from, best last.
+enum class StampSource { kUnknown = 0, kArrival, kEndOfFrame, kStartOfExposure };
+
+// How a live camera says it is set: read back, not what was asked for. Recordings know nothing.
+struct CameraState {
+  double exposure_ms = -1.0;  // -1: not known
+  double gain = -1.0;         // in the device's own units; -1: not known
+  StampSource stamp_source = StampSource::kUnknown;
+  Duration stamp_uncertainty = Duration::zero();  // 0: not known
+  Duration last_skew = Duration::zero();          // right minus left of the last pair
 };
 
 // Where stereo frames come from: a camera driver, a recording, a rendered scene.
@@ -92,7 +107,9 @@ class FrameSource {
   virtual WaitResult wait_next(Duration timeout) = 0;
   // Releases what start() claimed. @pre no lease is held.
   virtual void stop() = 0;
+  // Thread: any, while frames are waited for.
   [[nodiscard]] virtual SourceStats stats() const = 0;
+  [[nodiscard]] virtual CameraState camera_state() const { return {}; }
 };
 
 }  // namespace darkling
