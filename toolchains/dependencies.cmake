@@ -23,3 +23,15 @@ foreach(component core imgproc imgcodecs calib3d)
       INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR})
   endif()
 endforeach()
+
+# Without it the service tells nobody how it is, and has no watchdog.
+find_path(SYSTEMD_INCLUDE_DIR systemd/sd-daemon.h)
+find_library(SYSTEMD_LIBRARY systemd)
+if(SYSTEMD_INCLUDE_DIR AND SYSTEMD_LIBRARY)
+  add_library(systemd::systemd UNKNOWN IMPORTED)
+  set_target_properties(systemd::systemd PROPERTIES
+    IMPORTED_LOCATION ${SYSTEMD_LIBRARY}
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${SYSTEMD_INCLUDE_DIR})
+else()
+  message(STATUS "Built without libsystemd-dev: no notification of systemd")
+endif()

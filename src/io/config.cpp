@@ -20,7 +20,7 @@ namespace {
 // Shortest text that reads back as the same number.
 std::string to_text(double value) {
   char text[32];
-  const auto written = std::to_chars(text, text + sizeof(text), value);
+  const auto written = std::to_chars(text, text + sizeof(text), value, std::chars_format::fixed);
   return {text, written.ptr};
 }
 
