@@ -35,3 +35,17 @@ if(SYSTEMD_INCLUDE_DIR AND SYSTEMD_LIBRARY)
 else()
   message(STATUS "Built without libsystemd-dev: no notification of systemd")
 endif()
+
+# LCM ships no CMake package, and its lcm.pc asks for the development files of glib, which only LCM
+# itself uses. Generated messages need one header of it and no library. The generator is the host's
+# in cross builds too.
+find_path(LCM_INCLUDE_DIR lcm/lcm_coretypes.h REQUIRED)
+find_library(LCM_LIBRARY lcm REQUIRED)
+find_program(LCM_GEN_PROGRAM lcm-gen REQUIRED)
+add_library(lcm::coretypes INTERFACE IMPORTED)
+set_target_properties(lcm::coretypes PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR})
+add_library(lcm::lcm UNKNOWN IMPORTED)
+set_target_properties(lcm::lcm PROPERTIES
+  IMPORTED_LOCATION ${LCM_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR}
+  INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR})

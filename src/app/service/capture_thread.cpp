@@ -23,8 +23,12 @@ CaptureThread::CaptureThread(const Links& links, int realtime_priority)
     : links_(links), thread_([this, realtime_priority] { serve(realtime_priority); }) {}
 
 CaptureThread::~CaptureThread() {
+  stop();
+}
+
+void CaptureThread::stop() {
   is_stopping_ = true;
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 std::string CaptureThread::last_error() const {
@@ -72,7 +76,8 @@ void CaptureThread::close() {
   status.is_camera_open = false;
   while (status.pairs_in_flight.get() > 0) {
     links_.tracker.notify();
-    pause(std::chrono::milliseconds(1));
+    status.capture_heartbeat.beat();
+    static_cast<void>(sleep_until(read_monotonic_clock() + std::chrono::milliseconds(1)));
   }
   links_.source.stop();
 }

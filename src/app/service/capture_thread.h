@@ -27,11 +27,12 @@ class CaptureThread {
   };
   // @param realtime_priority  0: none is asked for.
   CaptureThread(const Links& links, int realtime_priority);
-  // Takes no longer than one wait for a frame, or what the device takes to open.
   ~CaptureThread();
   CaptureThread(const CaptureThread&) = delete;
   CaptureThread& operator=(const CaptureThread&) = delete;
 
+  // Closes the source. Takes no longer than one wait for a frame, or what the device takes to open.
+  void stop();
   // Why the source could not be opened the last time; empty once it is. Thread: any.
   [[nodiscard]] std::string last_error() const;
 

@@ -10,7 +10,7 @@ namespace darkling {
 struct Wish {
   enum class Kind { kNone = 0, kReset, kReseed, kHint };
   Kind kind = Kind::kNone;
-  Se3 T_previous_body;  // of kHint
+  Se3 T_previous_body = {};  // of kHint
 };
 
 using WishRing = SpscRing<Wish, 16>;

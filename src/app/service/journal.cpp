@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -28,8 +29,8 @@ class PriorityFlag final : public spdlog::custom_flag_formatter {
 
 spdlog::logger& journal() {
   static const std::shared_ptr<spdlog::logger> logger = [] {
-    auto made = std::make_shared<spdlog::logger>(
-        "darklingd", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    auto made = std::make_shared<spdlog::logger>("darklingd",
+                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
     if (std::getenv("JOURNAL_STREAM") != nullptr) {
       formatter->add_flag<PriorityFlag>('*').set_pattern("%*%v");

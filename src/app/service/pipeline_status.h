@@ -37,7 +37,8 @@ struct PipelineStatus {
   Count estimates_refused;  // the output had not taken those before
   Count refinement_overruns;
   Count heap_calls;  // since it began; -1: not counted
-  // Pairs that were handed over and not given back yet: a source is stopped only when there is none.
+  // Pairs that were handed over and not given back yet: a source is stopped only when there is
+  // none.
   Count pairs_in_flight;
 };
 
