@@ -10,10 +10,13 @@ readonly rate_hz=5
 
 ok() { echo "ok   $scenario: $1"; }
 skip() { echo "skip $scenario: $1"; }
-# fail CLAIM [WHAT_WAS_FOUND]
+# fail CLAIM [WHAT_WAS_FOUND]: the first failure of a scenario shows what the service said.
 fail() {
   echo "FAIL $scenario: $1${2:+ -- found: $2}"
-  journalctl -u darklingd -n 12 -o cat --no-pager | sed 's/^/     | /'
+  if [[ -z "${has_shown_journal:-}" ]]; then
+    service_log | tail -n 15 | sed 's/^/     | /'
+    has_shown_journal=yes
+  fi
 }
 
 # check CLAIM COMMAND…: ok when the command succeeds, else FAIL with what it printed.
@@ -103,7 +106,7 @@ check_heard() {
   if hear --for "$seconds" --until "$wanted" "$@" >"$scratch/heard" 2>&1; then
     ok "$claim"
   else
-    fail "$claim" "$(wc -l <"$scratch/heard") messages, at last: $(tail -n 2 "$scratch/heard")"
+    fail "$claim" "$(wc -l <"$scratch/heard") messages, at last: $(tail -n 1 "$scratch/heard")"
   fi
 }
 

@@ -16,6 +16,8 @@ install_service() {
   systemd-sysusers
   udevadm control --reload
   systemctl daemon-reload
+  # The guest has no network.
+  systemctl enable --quiet --now darkling-lcm-route
 }
 
 load_cameras() {
