@@ -30,6 +30,11 @@ class FrameLease {
   }
 
   [[nodiscard]] const StereoFrame& frame() const { return frame_; }
+  // What was on another clock, or is played back, is labelled anew.
+  void relabel(std::int64_t sequence, FrameTime stamp) {
+    frame_.sequence = sequence;
+    frame_.stamp = stamp;
+  }
   [[nodiscard]] bool is_held() const { return give_back_ != nullptr; }
 
  private:

@@ -9,4 +9,7 @@ namespace darkling {
 // The most memory this process has had resident, in bytes; nothing where the system does not tell.
 [[nodiscard]] std::optional<std::int64_t> read_peak_rss_bytes();
 
+// What it has resident now. Without a heap call.
+[[nodiscard]] std::optional<std::int64_t> read_rss_bytes();
+
 }  // namespace darkling

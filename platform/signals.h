@@ -10,4 +10,10 @@ void catch_stop_signals();
 // Whether a stop was asked for. Thread: any.
 [[nodiscard]] bool is_stop_requested();
 
+// From now on SIGHUP asks for the configuration to be read again. Call once, from the main thread.
+void catch_reload_signal();
+
+// Whether that was asked for since the last call. Thread: one.
+[[nodiscard]] bool take_reload_request();
+
 }  // namespace darkling

@@ -23,3 +23,29 @@ foreach(component core imgproc imgcodecs calib3d)
       INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE_DIR})
   endif()
 endforeach()
+
+# Without it the service tells nobody how it is, and has no watchdog.
+find_path(SYSTEMD_INCLUDE_DIR systemd/sd-daemon.h)
+find_library(SYSTEMD_LIBRARY systemd)
+if(SYSTEMD_INCLUDE_DIR AND SYSTEMD_LIBRARY)
+  add_library(systemd::systemd UNKNOWN IMPORTED)
+  set_target_properties(systemd::systemd PROPERTIES
+    IMPORTED_LOCATION ${SYSTEMD_LIBRARY}
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${SYSTEMD_INCLUDE_DIR})
+else()
+  message(STATUS "Built without libsystemd-dev: no notification of systemd")
+endif()
+
+# LCM ships no CMake package, and its lcm.pc asks for the development files of glib, which only LCM
+# itself uses. Generated messages need one header of it and no library. The generator is the host's
+# in cross builds too.
+find_path(LCM_INCLUDE_DIR lcm/lcm_coretypes.h REQUIRED)
+find_library(LCM_LIBRARY lcm REQUIRED)
+find_program(LCM_GEN_PROGRAM lcm-gen REQUIRED)
+add_library(lcm::coretypes INTERFACE IMPORTED)
+set_target_properties(lcm::coretypes PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR})
+add_library(lcm::lcm UNKNOWN IMPORTED)
+set_target_properties(lcm::lcm PROPERTIES
+  IMPORTED_LOCATION ${LCM_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR}
+  INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR})

@@ -3,6 +3,9 @@
 
 #include <cstdio>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace darkling {
 
 // Not getrusage(): its maximum survives exec, so a small program started by a large one inherits
@@ -18,6 +21,20 @@ std::optional<std::int64_t> read_peak_rss_bytes() {
   }
   std::fclose(status);
   return peak_bytes;
+}
+
+std::optional<std::int64_t> read_rss_bytes() {
+  const int fd = open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return std::nullopt;
+  char text[128] = {};
+  const ssize_t length = read(fd, text, sizeof(text) - 1);
+  close(fd);
+  long long size_pages = 0;
+  long long resident_pages = 0;
+  if (length <= 0 || std::sscanf(text, "%lld %lld", &size_pages, &resident_pages) != 2) {
+    return std::nullopt;
+  }
+  return resident_pages * sysconf(_SC_PAGESIZE);
 }
 
 }  // namespace darkling

@@ -11,10 +11,15 @@ namespace darkling {
 namespace {
 
 std::atomic<bool> stop_requested = false;
+std::atomic<bool> reload_requested = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch it");
 
 void request_stop(int) {
   stop_requested.store(true, std::memory_order_relaxed);
+}
+
+void request_reload(int) {
+  reload_requested.store(true, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -30,6 +35,16 @@ void catch_stop_signals() {
 
 bool is_stop_requested() {
   return stop_requested.load(std::memory_order_relaxed);
+}
+
+void catch_reload_signal() {
+  struct sigaction action = {};
+  action.sa_handler = request_reload;
+  CHECK(sigaction(SIGHUP, &action, nullptr) == 0, "SIGHUP can be caught");
+}
+
+bool take_reload_request() {
+  return reload_requested.exchange(false, std::memory_order_relaxed);
 }
 
 }  // namespace darkling

@@ -71,7 +71,7 @@ Result<BenchOptions> understand(const BenchWords& words) {
   if (!words.points.empty()) settings.push_back({"--points", "points_per_level=" + words.points});
   const auto config = load_config("", settings);
   if (!config) return tl::unexpected(config.error());
-  options.config = *config;
+  options.config = config->odometry;
   const auto range = parse_frame_range(words.frames, {});
   if (!range) return tl::unexpected(range.error());
   if (words.repeats < 0) {

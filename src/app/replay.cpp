@@ -53,7 +53,8 @@ Result<Run> prepare(const ReplayOptions& options) {
   if (!kernels) return tl::unexpected(kernels.error());
   auto recording = open_source(options.source, options.frames);
   if (!recording) return tl::unexpected(recording.error());
-  auto odometry = Odometry::create(*config, recording->rig, *kernels, read_monotonic_clock);
+  auto odometry =
+      Odometry::create(config->odometry, recording->rig, *kernels, read_monotonic_clock);
   if (!odometry) return tl::unexpected(odometry.error());
   auto truth = find_truth(options, *recording);
   if (!truth) return tl::unexpected(truth.error());

@@ -41,7 +41,7 @@ struct Checked {
 
 constexpr double kMiB = 1024.0 * 1024.0;
 
-Result<OdometryConfig> read_config(const CheckWords& words) {
+Result<Config> read_config(const CheckWords& words) {
   std::vector<ConfigSetting> settings;
   for (const std::string& text : words.settings) settings.push_back({"--set", text});
   if (!words.width.empty()) settings.push_back({"--width", "width_px=" + words.width});
@@ -92,7 +92,7 @@ Result<Checked> check_all(const CheckWords& words) {
   const auto config = read_config(words);
   if (!config) return tl::unexpected(config.error());
   Checked checked;
-  checked.config = *config;
+  checked.config = config->odometry;
   const Result<void> taken = !words.source.empty() ? take_source(words.source, checked)
                              : !words.size.empty() ? take_size(words.size, checked)
                                                    : take_configured_width(checked);

@@ -20,7 +20,7 @@ namespace {
 // Shortest text that reads back as the same number.
 std::string to_text(double value) {
   char text[32];
-  const auto written = std::to_chars(text, text + sizeof(text), value);
+  const auto written = std::to_chars(text, text + sizeof(text), value, std::chars_format::fixed);
   return {text, written.ptr};
 }
 
@@ -32,7 +32,8 @@ std::string join_with_or(std::span<const std::string_view> words) {
 
 std::string describe_range(const ConfigKey& key) {
   if (const auto* field = std::get_if<WordField>(&key.field)) return join_with_or(field->words);
-  if (std::holds_alternative<bool OdometryConfig::*>(key.field)) return "true or false";
+  if (std::holds_alternative<Field<bool>>(key.field)) return "true or false";
+  if (std::holds_alternative<Field<std::string>>(key.field)) return std::string(key.unit);
   std::string range = to_text(key.least) + " to " + to_text(key.most);
   if (!key.unit.empty()) range.append(" ").append(key.unit);
   if (key.may_be_zero) range += " or 0";
@@ -49,49 +50,65 @@ std::string suggest_word(const ConfigKey& key, std::string_view found) {
   return nearest ? ", did you mean '" + std::string(*nearest) + "'?" : "";
 }
 
+// `text` as YAML reads it back, whatever is in it.
+std::string quote(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
 // What one key of `config` is, as the file would say it.
-std::string value_text(const OdometryConfig& config, const ConfigKey& key) {
-  if (const auto* field = std::get_if<WordField>(&key.field)) {
-    return std::string(field->words[field->get(config)]);
-  }
-  if (const auto* field = std::get_if<bool OdometryConfig::*>(&key.field)) {
-    return config.**field ? "true" : "false";
-  }
-  if (const auto* field = std::get_if<int OdometryConfig::*>(&key.field)) {
-    return std::to_string(config.**field);
-  }
-  return to_text(config.*std::get<double OdometryConfig::*>(key.field));
+std::string value_text(const Config& config, const ConfigKey& key) {
+  struct Visitor {
+    const Config& config;
+    std::string operator()(const Field<int>& f) const { return std::to_string(f.get(config)); }
+    std::string operator()(const Field<double>& f) const { return to_text(f.get(config)); }
+    std::string operator()(const Field<bool>& f) const { return f.get(config) ? "true" : "false"; }
+    std::string operator()(const Field<std::string>& f) const { return quote(f.get(config)); }
+    std::string operator()(const WordField& f) const { return std::string(f.words[f.get(config)]); }
+  };
+  return std::visit(Visitor{config}, key.field);
 }
 
 bool is_allowed(const ConfigKey& key, double value) {
   return (value >= key.least && value <= key.most) || (key.may_be_zero && value == 0.0);
 }
 
-bool set_word(OdometryConfig& config, const WordField& field, std::string_view text) {
-  const auto word = std::find(field.words.begin(), field.words.end(), text);
-  if (word == field.words.end()) return false;
-  field.set(config, static_cast<std::size_t>(word - field.words.begin()));
-  return true;
-}
+// Sets one key to what a text says; each answers false when that is not a value of the key's type
+// and range.
+struct ValueSetter {
+  Config& config;
+  const ConfigKey& key;
+  std::string_view text;
 
-// @return false when `text` is not a value of the key's type and range.
-bool set_value(OdometryConfig& config, const ConfigKey& key, std::string_view text) {
-  if (const auto* field = std::get_if<WordField>(&key.field)) return set_word(config, *field, text);
-  if (const auto* field = std::get_if<bool OdometryConfig::*>(&key.field)) {
-    config.** field = text == "true";
-    return text == "true" || text == "false";
-  }
-  if (const auto* field = std::get_if<int OdometryConfig::*>(&key.field)) {
-    const auto value = parse_number<int>(text);
+  template <class Number>
+  bool operator()(const Field<Number>& field) const {
+    const auto value = parse_number<Number>(text);
     if (!value || !is_allowed(key, *value)) return false;
-    config.** field = *value;
+    field.edit(config) = *value;
     return true;
   }
-  const auto value = parse_number<double>(text);
-  if (!value || !is_allowed(key, *value)) return false;
-  config.*std::get<double OdometryConfig::*>(key.field) = *value;
-  return true;
-}
+  bool operator()(const Field<bool>& field) const {
+    field.edit(config) = text == "true";
+    return text == "true" || text == "false";
+  }
+  bool operator()(const Field<std::string>& field) const {
+    // A line break or another control character is never meant.
+    const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+    if (std::any_of(text.begin(), text.end(), is_control)) return false;
+    field.edit(config) = text;
+    return true;
+  }
+  bool operator()(const WordField& field) const {
+    const auto word = std::find(field.words.begin(), field.words.end(), text);
+    if (word == field.words.end()) return false;
+    field.set(config, static_cast<std::size_t>(word - field.words.begin()));
+    return true;
+  }
+};
 
 const ConfigKey* find_key(std::string_view name) {
   for (const ConfigKey& key : config_keys()) {
@@ -109,7 +126,7 @@ std::string unknown_key(std::string_view name) {
 // One place that keys come from: knows which it has set, and how to complain.
 class Setter {
  public:
-  Setter(OdometryConfig& config, ExitCode code) : config_(config), code_(code) {}
+  Setter(Config& config, ExitCode code) : config_(config), code_(code) {}
 
   Result<void> set(const std::string& where, std::string_view name, std::string_view value) {
     const ConfigKey* key = find_key(name);
@@ -117,7 +134,7 @@ class Setter {
     if (!seen_.insert(key).second) {
       return failure(code_, where + "key '" + std::string(name) + "' is given twice");
     }
-    if (!set_value(config_, *key, value)) {
+    if (!std::visit(ValueSetter{config_, *key, value}, key->field)) {
       return failure(code_, where + "key '" + std::string(name) + "': found '" +
                                 std::string(value) + "', allowed is " + describe_range(*key) +
                                 describe_limits(*key) + suggest_word(*key, value));
@@ -126,7 +143,7 @@ class Setter {
   }
 
  private:
-  OdometryConfig& config_;
+  Config& config_;
   ExitCode code_;
   std::set<const ConfigKey*> seen_;
 };
@@ -142,8 +159,11 @@ Result<void> set_from_yaml(const std::string& path, const YAML::Node& top, Sette
       return failure(ExitCode::kConfiguration, where + "a key must be one word");
     }
     const std::string name = entry.first.Scalar();
-    const bool is_scalar = entry.second.IsScalar();
-    const auto set = setter.set(where, name, is_scalar ? entry.second.Scalar() : "");
+    if (!entry.second.IsScalar() && !entry.second.IsNull()) {
+      return failure(ExitCode::kConfiguration,
+                     where + "key '" + name + "': found a list or a map, one value is needed");
+    }
+    const auto set = setter.set(where, name, entry.second.IsScalar() ? entry.second.Scalar() : "");
     if (!set) return set;
   }
   return {};
@@ -167,9 +187,8 @@ Result<void> set_from_file(const std::string& path, Setter& setter) {
 
 }  // namespace
 
-Result<OdometryConfig> load_config(const std::string& path,
-                                   const std::vector<ConfigSetting>& settings) {
-  OdometryConfig config;
+Result<Config> load_config(const std::string& path, const std::vector<ConfigSetting>& settings) {
+  Config config;
   if (!path.empty()) {
     Setter setter(config, ExitCode::kConfiguration);
     const auto read = set_from_file(path, setter);
@@ -187,7 +206,7 @@ Result<OdometryConfig> load_config(const std::string& path,
   return config;
 }
 
-std::string format_config(const OdometryConfig& config) {
+std::string format_config(const Config& config) {
   std::string file =
       "# Configuration of Darkling: every key there is. One that is left out has its default.\n";
   for (const ConfigKey& key : config_keys()) {

@@ -209,12 +209,16 @@ Estimate Odometry::track(const StereoFrame& frame) {
   s.prepare_left(frame, estimate);
   if (s.keyframe.is_empty()) return s.start(frame, estimate), estimate;
 
-  const std::array<Se3, 2> guesses = {s.predict(frame.sequence).inverse() * s.T_world_key,
-                                      s.T_world_previous.inverse() * s.T_world_key};
+  const std::array<Se3, 3> guesses = {
+      s.predict(frame.sequence).inverse() * s.T_world_key,
+      s.T_world_previous.inverse() * s.T_world_key,
+      (s.T_world_previous * s.hinted.value_or(Se3())).inverse() * s.T_world_key};
+  const std::size_t guess_count = std::exchange(s.hinted, std::nullopt) ? 3 : 2;
   Alignment alignment;
   {
     StageTimer timer(s.read_clock, estimate, Stage::kTrack);
-    alignment = align_frame(s.kernels, s.keyframe, s.left, guesses, s.residuals);
+    alignment = align_frame(s.kernels, s.keyframe, s.left, std::span(guesses).first(guess_count),
+                            s.residuals);
   }
   const Judgement judgement = judge_alignment(alignment, s.keyframe.levels[0], s.rig.focal_px);
   estimate.status = judgement.status;
@@ -236,7 +240,9 @@ Estimate Odometry::track(const StereoFrame& frame) {
                       s.influences);
   }
   s.accept(s.T_world_key * alignment.T_current_key.inverse(), frame.sequence);
-  if (judgement.is_keyframe_due) s.make_keyframe(frame, estimate);
+  if (judgement.is_keyframe_due || s.is_reseed_wanted) {
+    s.is_reseed_wanted &= !s.make_keyframe(frame, estimate);
+  }
   s.report(s.T_world_previous, estimate);
   return estimate;
 }

@@ -38,6 +38,15 @@ class Odometry {
   // kReasonDropped. The next track() takes the gap into account.
   [[nodiscard]] Estimate skip(std::int64_t sequence, FrameTime stamp);
 
+  // Adds to the guesses that the next track() starts from.
+  // @param T_previous_body  motion of Body since the last frame that was measured.
+  void hint(const Se3& T_previous_body);
+  // Makes the next frame that is measured a keyframe, whether or not one is due.
+  void reseed();
+  // Forgets everything but the count of resets, which grows: the next frame starts a new track at
+  // the origin.
+  void reset();
+
   // Completes the refinement that the last frame left, if any: what track() and skip() begin with,
   // for callers that have time between frames.
   void finish_refinement();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "base/arena.h"
 #include "vo/align.h"
 #include "vo/area_map.h"
@@ -55,6 +57,8 @@ struct Odometry::State {
   std::int64_t previous_sequence = 0;
   std::int64_t motion_gap = 1;  // frames that T_before_previous spans
   int lost_in_a_row = 0;
+  std::optional<Se3> hinted;  // T_previous_left, for the next frame only
+  bool is_reseed_wanted = false;
   int reset_counter = 0;
   PoseCovariance covariance;
   bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to

@@ -3,6 +3,7 @@
 """Includes go downwards only, and OpenCV stays out of headers.
 
     app → io → vo → kernels → geometry → base        drivers → platform → base        (app joins both)
+    io, drivers and app → messages → base
 """
 import pathlib
 import re
@@ -13,13 +14,14 @@ import project_files
 # What each layer may include besides itself.
 BELOW = {
     "base": set(),
+    "messages": {"base"},
     "geometry": {"base"},
     "kernels": {"geometry", "base"},
     "vo": {"kernels", "geometry", "base"},
-    "io": {"vo", "kernels", "geometry", "base"},
+    "io": {"messages", "vo", "kernels", "geometry", "base"},
     "platform": {"base"},
-    "drivers": {"platform", "geometry", "base"},
-    "app": {"io", "vo", "kernels", "geometry", "base", "drivers", "platform"},
+    "drivers": {"platform", "messages", "geometry", "base"},
+    "app": {"io", "vo", "kernels", "geometry", "base", "messages", "drivers", "platform"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

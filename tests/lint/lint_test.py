@@ -42,6 +42,7 @@ class CheckLayers(LintTest):
         self.write("src/vo/a.cpp", '#include <vector>\n#include "base/time.h"\n#include "vo/a.h"\n')
         self.write("drivers/x/a.cpp", '#include "drivers/a.h"\n#include "platform/clocks.h"\n')
         self.write("src/app/a.cpp", '#include "io/a.h"\n#include "drivers/x/a.h"\n')
+        self.write("drivers/y/a.cpp", '#include "messages/frame_t.hpp"\n')
         self.write("tests/unit/a_test.cpp", '#include "app/a.h"\n#include "support/b.h"\n')
         self.assertEqual(list(check_layers.faults(self.root)), [])
 
@@ -51,6 +52,10 @@ class CheckLayers(LintTest):
 
     def test_finds_an_include_across(self):
         self.write("src/vo/a.cpp", '#include "platform/clocks.h"\n')
+        self.assertIn("vo includes", self.only_fault(check_layers))
+
+    def test_finds_a_message_inside_the_algorithm(self):
+        self.write("src/vo/a.cpp", '#include "messages/pose_t.hpp"\n')
         self.assertIn("vo includes", self.only_fault(check_layers))
 
     def test_finds_a_path_that_hides_its_layer(self):

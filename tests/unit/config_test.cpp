@@ -17,17 +17,17 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-Result<OdometryConfig> load_content(const std::string& content) {
+Result<Config> load_content(const std::string& content) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "rover.yaml", content);
   return load_config(folder / "rover.yaml", {});
 }
 
-Result<OdometryConfig> load_setting(const std::string& setting) {
+Result<Config> load_setting(const std::string& setting) {
   return load_config("", {{"--set", setting}});
 }
 
-void expect_refused(const Result<OdometryConfig>& config, ExitCode code, const std::string& part) {
+void expect_refused(const Result<Config>& config, ExitCode code, const std::string& part) {
   ASSERT_FALSE(config) << part;
   EXPECT_EQ(config.error().code, code);
   EXPECT_THAT(config.error().message, HasSubstr(part));
@@ -36,7 +36,7 @@ void expect_refused(const Result<OdometryConfig>& config, ExitCode code, const s
 TEST(LoadConfig, GivesTheDefaultsWhenNothingIsSet) {
   const auto config = load_config("", {});
   ASSERT_TRUE(config);
-  EXPECT_EQ(format_config(*config), format_config(OdometryConfig{}));
+  EXPECT_EQ(format_config(*config), format_config(Config{}));
 }
 
 TEST(LoadConfig, ReadsAFileThenTheSettings) {
@@ -44,8 +44,8 @@ TEST(LoadConfig, ReadsAFileThenTheSettings) {
   test::write_text(folder / "rover.yaml", "# mine\nwidth_px: 240\npoints_per_level: 700\n");
   const auto config = load_config(folder / "rover.yaml", {{"--set", "width_px=188"}});
   ASSERT_TRUE(config) << config.error().message;
-  EXPECT_EQ(config->width_px, 188);
-  EXPECT_EQ(config->points_per_level, 700);
+  EXPECT_EQ(config->odometry.width_px, 188);
+  EXPECT_EQ(config->odometry.points_per_level, 700);
 }
 
 TEST(LoadConfig, TakesAnEmptyFileForTheDefaults) {
@@ -87,11 +87,11 @@ TEST(LoadConfig, RefusesValuesOfAnotherKind) {
 
 TEST(LoadConfig, TakesTheWordsOfAnEnumeration) {
   EXPECT_EQ(OdometryConfig{}.stereo, StereoMethod::kSemiGlobal);
-  EXPECT_EQ(load_content("stereo: block\n")->stereo, StereoMethod::kBlock);
-  EXPECT_EQ(load_setting("stereo=block")->stereo, StereoMethod::kBlock);
+  EXPECT_EQ(load_content("stereo: block\n")->odometry.stereo, StereoMethod::kBlock);
+  EXPECT_EQ(load_setting("stereo=block")->odometry.stereo, StereoMethod::kBlock);
   EXPECT_EQ(OdometryConfig{}.descriptor, Descriptor::kBitplanes);
-  EXPECT_EQ(load_setting("descriptor=intensity")->descriptor, Descriptor::kIntensity);
-  EXPECT_EQ(load_setting("stereo=semi_global")->stereo, StereoMethod::kSemiGlobal);
+  EXPECT_EQ(load_setting("descriptor=intensity")->odometry.descriptor, Descriptor::kIntensity);
+  EXPECT_EQ(load_setting("stereo=semi_global")->odometry.stereo, StereoMethod::kSemiGlobal);
 }
 
 TEST(LoadConfig, ListsTheWordsAndSuggestsOneInPlaceOfAnother) {
@@ -109,6 +109,16 @@ TEST(LoadConfig, ListsTheWordsAndSuggestsOneInPlaceOfAnother) {
   const auto unlike = load_setting("stereo=1");
   ASSERT_FALSE(unlike);
   EXPECT_THAT(unlike.error().message, Not(HasSubstr("did you mean")));
+}
+
+TEST(LoadConfig, TakesTextsAsTheyAreButNoControlCharacters) {
+  EXPECT_EQ(load_setting("camera=v4l2:/dev/video0,/dev/video1")->camera.source,
+            "v4l2:/dev/video0,/dev/video1");
+  EXPECT_EQ(load_content("channel_prefix:\n")->service.channel_prefix, "");
+  EXPECT_EQ(load_content("channel_prefix: 12\n")->service.channel_prefix, "12");
+  expect_refused(load_content("channel_prefix: \"a\\nb\"\n"), ExitCode::kConfiguration,
+                 "rover.yaml:1: key 'channel_prefix'");
+  expect_refused(load_content("camera: [a, b]\n"), ExitCode::kConfiguration, "a list or a map");
 }
 
 TEST(LoadConfig, RefusesASettingWithoutAnEqualsSign) {
@@ -134,18 +144,24 @@ TEST(ConfigKeys, AreNamedOnceAndHaveTheirDefaultsInRange) {
     EXPECT_FALSE(key.about.empty()) << key.name;
     EXPECT_LE(key.least, key.most) << key.name;
   }
-  EXPECT_TRUE(load_content(format_config(OdometryConfig{})));
+  EXPECT_TRUE(load_content(format_config(Config{})));
 }
 
 TEST(FormatConfig, IsReadBackAsTheSameConfiguration) {
-  OdometryConfig config;
-  config.width_px = 177;
-  config.points_per_level = 321;
-  config.descriptor = Descriptor::kIntensity;
-  config.stereo = StereoMethod::kBlock;
+  Config config;
+  config.odometry.width_px = 177;
+  config.odometry.points_per_level = 321;
+  config.odometry.descriptor = Descriptor::kIntensity;
+  config.odometry.stereo = StereoMethod::kBlock;
+  config.camera.source = R"(synthetic:mine,"odd" \ # name)";
+  config.camera.layout = EyeLayout::kTopBottom;
+  config.camera.gain = 12.5;
+  config.service.channel_prefix = "'ROVER: ";
+  config.service.lock_memory = true;
   const auto read = load_content(format_config(config));
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(format_config(*read), format_config(config));
+  EXPECT_EQ(read->camera.source, config.camera.source);
   EXPECT_THAT(format_config(*read), HasSubstr("# Allowed: semi_global or block.\nstereo: block\n"));
 }
 
@@ -153,9 +169,9 @@ TEST(FormatConfig, IsReadBackAsTheSameConfiguration) {
 TEST(DefaultConfigFile, IsWhatTheTableSays) {
   const std::string path = test::project_folder() + "/config/default.yaml";
   if (std::getenv("DARKLING_UPDATE") != nullptr) {
-    test::write_text(path, format_config(OdometryConfig{}));
+    test::write_text(path, format_config(Config{}));
   }
-  EXPECT_EQ(test::read_text(path), format_config(OdometryConfig{}))
+  EXPECT_EQ(test::read_text(path), format_config(Config{}))
       << "run with DARKLING_UPDATE=1 to write it anew";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/refinement_thread.h"
+#include "app/service/refinement_thread.h"
 
 #include <cstring>
 #include <thread>

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/spsc_ring.h"
+#include "geometry/se3.h"
+
+namespace darkling {
+
+// What the odometry is asked to do before the next frame.
+struct Wish {
+  enum class Kind { kNone = 0, kReset, kReseed, kHint };
+  Kind kind = Kind::kNone;
+  Se3 T_previous_body = {};  // of kHint
+};
+
+using WishRing = SpscRing<Wish, 16>;
+
+}  // namespace darkling

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/service/health.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace darkling {
+
+namespace {
+
+constexpr std::array<const char*, kServiceStateCount> kStateNames = {
+    "UNKNOWN", "INIT", "TRACKING", "DEGRADED", "LOST", "NO_CAMERA", "FAULT"};
+
+struct NamedReason {
+  std::uint32_t bit;
+  const char* name;
+};
+constexpr std::array kReasons = std::to_array<NamedReason>({
+    {kReasonLowTexture, "low_texture"},
+    {kReasonLowOverlap, "low_overlap"},
+    {kReasonNotConverged, "not_converged"},
+    {kReasonIllConditioned, "ill_conditioned"},
+    {kReasonResidualHigh, "residual_high"},
+    {kReasonDropped, "dropped"},
+    {kReasonNoDepth, "no_depth"},
+    {kReasonEyesSwapped, "eyes_swapped"},
+    {kReasonNoFrames, "no_frames"},
+    {kReasonLate, "late"},
+    {kReasonClockStepped, "clock_stepped"},
+    {kReasonNotPublished, "not_published"},
+    {kReasonRecordingFailed, "recording_failed"},
+});
+
+// So many periods without a frame, or so long at least, is a camera that is gone.
+constexpr int kSilentPeriods = 5;
+constexpr Duration kLeastSilence = std::chrono::milliseconds(500);
+
+}  // namespace
+
+const char* name_of(ServiceState state) {
+  return kStateNames[static_cast<std::size_t>(state)];
+}
+
+std::string describe_reasons(std::uint32_t reasons) {
+  std::string text;
+  for (const NamedReason& reason : kReasons) {
+    if ((reasons & reason.bit) == 0) continue;
+    text.append(text.empty() ? "" : ",").append(reason.name);
+  }
+  return text.empty() ? "none" : text;
+}
+
+Health::Health(MonotonicTime now, Duration period)
+    : last_frame_at_(now), silence_(std::max(kSilentPeriods * period, kLeastSilence)) {}
+
+void Health::observe(const Estimate& estimate, MonotonicTime now) {
+  last_frame_at_ = now;
+  last_status_ = estimate.status;
+  reasons_ |= estimate.reasons;
+}
+
+ServiceState Health::judge(MonotonicTime now, bool is_camera_open, bool are_threads_alive) {
+  if (!are_threads_alive) return ServiceState::kFault;
+  if (!is_camera_open || now - last_frame_at_ > silence_) {
+    reasons_ |= kReasonNoFrames;
+    return ServiceState::kNoCamera;
+  }
+  switch (last_status_) {
+    case TrackStatus::kUnknown:
+      return ServiceState::kInit;
+    case TrackStatus::kValid:
+      return ServiceState::kTracking;
+    case TrackStatus::kDegraded:
+      return ServiceState::kDegraded;
+    case TrackStatus::kLost:
+      return ServiceState::kLost;
+  }
+  return ServiceState::kUnknown;
+}
+
+std::uint32_t Health::take_reasons() {
+  return std::exchange(reasons_, 0);
+}
+
+}  // namespace darkling

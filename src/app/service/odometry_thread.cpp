@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/service/odometry_thread.h"
+
+#include <utility>
+
+#include "app/service/journal.h"
+#include "platform/heap_probe.h"
+#include "platform/realtime.h"
+
+namespace darkling {
+
+namespace {
+
+constexpr Duration kWait = std::chrono::milliseconds(100);
+
+}  // namespace
+
+OdometryThread::OdometryThread(const Links& links, int cpu)
+    : links_(links), thread_([this, cpu] { serve(cpu); }) {}
+
+OdometryThread::~OdometryThread() {
+  is_stopping_ = true;
+  links_.own.notify();
+  thread_.join();
+}
+
+void OdometryThread::serve(int cpu) {
+  name_thread("odometry");
+  if (cpu >= 0) report_wish("cpu", request_core(cpu));
+  PipelineStatus& status = links_.status;
+  const auto heap_calls_before = count_heap_calls();
+  status.heap_calls.set(heap_calls_before ? 0 : -1);
+  while (!is_stopping_) {
+    status.odometry_heartbeat.beat();
+    static_cast<void>(links_.own.wait(kWait));
+    std::int64_t skipped = 0;
+    std::optional<WaitResult> pair = links_.pairs.pop_newest(skipped);
+    if (!pair) continue;
+    status.pairs_skipped.add(skipped);
+    take_wishes();
+    track(*pair);
+    pair.reset();
+    status.pairs_in_flight.add(-1 - skipped);
+    status.refinement_overruns.set(links_.odometry.refinement_overruns());
+    if (heap_calls_before) status.heap_calls.set(*count_heap_calls() - *heap_calls_before);
+  }
+}
+
+void OdometryThread::take_wishes() {
+  while (const std::optional<Wish> wish = links_.wishes.try_pop()) {
+    switch (wish->kind) {
+      case Wish::Kind::kNone:
+        break;
+      case Wish::Kind::kReset:
+        links_.odometry.reset();
+        break;
+      case Wish::Kind::kReseed:
+        links_.odometry.reseed();
+        break;
+      case Wish::Kind::kHint:
+        links_.odometry.hint(wish->T_previous_body);
+        break;
+    }
+    if (links_.observer != nullptr) links_.observer->on_wish(*wish);
+  }
+}
+
+void OdometryThread::track(const WaitResult& pair) {
+  TrackedFrame tracked;
+  tracked.is_bad = pair.status == WaitStatus::kBadFrame;
+  if (tracked.is_bad) links_.status.pairs_bad.add();
+  tracked.estimate = tracked.is_bad ? links_.odometry.skip(pair.sequence, pair.stamp)
+                                    : links_.odometry.track(pair.lease.frame());
+  const Estimate estimate = tracked.estimate;
+  if (!links_.estimates.try_push(std::move(tracked))) links_.status.estimates_refused.add();
+  links_.output.notify();
+  if (links_.observer != nullptr) links_.observer->on_pair(pair, estimate);
+}
+
+}  // namespace darkling

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/service/pipeline.h"
+
+#include <cmath>
+#include <utility>
+
+#include "messages/command_t.hpp"
+#include "platform/clocks.h"
+#include "platform/cpu_features.h"
+
+namespace darkling {
+
+Result<std::unique_ptr<Pipeline>> Pipeline::create(const Config& config) {
+  auto camera = open_camera(config);
+  if (!camera) return tl::unexpected(camera.error());
+  const auto kernels = select_kernels("auto", detect_cpu_features());
+  if (!kernels) return tl::unexpected(kernels.error());
+  std::unique_ptr<Pipeline> pipeline(new Pipeline(config, std::move(*camera), *kernels));
+  auto odometry = Odometry::create(config.odometry, pipeline->camera_.rig, *kernels,
+                                   read_monotonic_clock, &pipeline->refinement_);
+  if (!odometry) return tl::unexpected(odometry.error());
+  pipeline->odometry_ = std::move(*odometry);
+  return pipeline;
+}
+
+Pipeline::Pipeline(const Config& config, LiveCamera camera, const KernelTable& kernels)
+    : config_(config), camera_(std::move(camera)), kernels_(kernels) {}
+
+void Pipeline::start(std::optional<Duration> watchdog_period) {
+  const RectifiedRig& rig = odometry_->rig();
+  const PipelineFacts facts{
+      .camera = camera_.name,
+      .kernels = kernels_.name,
+      .version = DARKLING_VERSION,
+      .arena_bytes = static_cast<std::int64_t>(odometry_->arena_bytes()),
+      .width_px = rig.width,
+      .height_px = rig.height,
+      .period = Duration(std::llround(1e9 / config_.camera.rate_hz)),
+  };
+  capture_ = std::make_unique<CaptureThread>(
+      CaptureThread::Links{*camera_.source, pairs_, odometry_wake_, status_},
+      config_.service.realtime_priority);
+  tracker_ = std::make_unique<OdometryThread>(
+      OdometryThread::Links{*odometry_, pairs_, wishes_, odometry_wake_, estimates_, output_wake_,
+                            status_, nullptr},
+      config_.service.cpu);
+  output_ = std::make_unique<OutputThread>(
+      OutputThread::Links{estimates_, output_wake_, status_, *capture_, *camera_.source}, facts,
+      config_.service, watchdog_period);
+  commands_ = std::make_unique<CommandThread>(
+      CommandThread::Links{wishes_,
+                           [this](std::int8_t command) {
+                             if (command == command_t::COMMAND_ZERO_COUNTERS) {
+                               output_->zero_counters();
+                             }
+                           }},
+      config_.service.lcm_url, config_.service.channel_prefix);
+}
+
+Pipeline::~Pipeline() {
+  commands_.reset();
+  // The source stops only when it has all its pairs back, so the one who takes them goes later; and
+  // the output goes last, but speaks of the capture thread.
+  if (capture_ != nullptr) capture_->stop();
+  tracker_.reset();
+  output_.reset();
+  capture_.reset();
+}
+
+bool Pipeline::is_over() const {
+  return status_.is_source_over && status_.pairs_in_flight.get() == 0;
+}
+
+}  // namespace darkling

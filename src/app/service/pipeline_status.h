@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "app/service/heartbeat.h"
+#include "vo/estimate.h"
+
+namespace darkling {
+
+// A count that one thread keeps and others read.
+class Count {
+ public:
+  void add(std::int64_t n = 1) { value_.fetch_add(n, std::memory_order_relaxed); }
+  void set(std::int64_t n) { value_.store(n, std::memory_order_relaxed); }
+  [[nodiscard]] std::int64_t get() const { return value_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::int64_t> value_ = 0;
+};
+
+// What the threads of the service know of each other. Everything counts since the pipeline started.
+struct PipelineStatus {
+  // Of the thread that captures:
+  Heartbeat capture_heartbeat;
+  std::atomic<bool> is_camera_open = false;
+  Count camera_openings;
+  Count pairs_in;       // whole or not
+  Count pairs_refused;  // the odometry had not taken what came before
+  std::atomic<bool> is_source_over = false;
+
+  // Of the thread that tracks:
+  Heartbeat odometry_heartbeat;
+  Count pairs_skipped;  // passed over, a newer one was there
+  Count pairs_bad;
+  Count estimates_refused;  // the output had not taken those before
+  Count refinement_overruns;
+  Count heap_calls;  // since it began; -1: not counted
+  // Pairs that were handed over and not given back yet: a source is stopped only when there is
+  // none.
+  Count pairs_in_flight;
+};
+
+// One estimate on its way out.
+struct TrackedFrame {
+  Estimate estimate;
+  bool is_bad = false;  // there was no usable pair
+};
+
+}  // namespace darkling
