@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash disable=SC2154
+# What scenarios are written with; sourced by guest.sh. A scenario prints one line a check, beginning
+# with `ok`, `FAIL` or `skip`, and goes on after a failure.
+
+readonly config=/etc/darkling/darkling.yaml
+readonly loopback_left=/dev/video20 loopback_right=/dev/video21
+readonly vivid_left=/dev/video10 vivid_right=/dev/video11
+readonly rate_hz=5
+
+ok() { echo "ok   $scenario: $1"; }
+skip() { echo "skip $scenario: $1"; }
+# fail CLAIM [WHAT_WAS_FOUND]: the first failure of a scenario shows what the service said.
+fail() {
+  echo "FAIL $scenario: $1${2:+ -- found: $2}"
+  if [[ -z "${has_shown_journal:-}" ]]; then
+    service_log | tail -n 15 | sed 's/^/     | /'
+    has_shown_journal=yes
+  fi
+}
+
+# check CLAIM COMMAND…: ok when the command succeeds, else FAIL with what it printed.
+check() {
+  local claim="$1" printed
+  shift
+  if printed="$("$@" 2>&1)"; then ok "$claim"; else fail "$claim" "$(tail -n 3 <<<"$printed")"; fi
+}
+
+# check_equal CLAIM WANTED FOUND
+check_equal() {
+  if [[ "$3" == "$2" ]]; then ok "$1"; else fail "$1" "\`$3\`, wanted: \`$2\`"; fi
+}
+
+# check_below CLAIM LIMIT FOUND: integers.
+check_below() {
+  if [[ -n "$3" && "$3" -lt "$2" ]]; then ok "$1 ($3)"; else fail "$1" "$3, limit: $2"; fi
+}
+
+# wait_until SECONDS COMMAND…: whether the command succeeded within that time.
+wait_until() {
+  local end=$((SECONDS + $1))
+  shift
+  until "$@" >/dev/null 2>&1; do
+    ((SECONDS < end)) || return 1
+    sleep 0.2
+  done
+}
+
+# configure SOURCE [KEY=VALUE…]: writes the service's configuration for `loopback` or `vivid`.
+configure() {
+  local source="$1" setting
+  shift
+  {
+    if [[ "$source" == vivid ]]; then
+      echo "camera: \"v4l2:$vivid_left,$vivid_right\""
+      echo "calibration: /etc/darkling/wide"
+      # Nothing keeps the two in step.
+      echo "max_skew_ms: 100"
+      echo "width_px: 160"
+    else
+      echo "camera: \"v4l2:$loopback_left,$loopback_right\""
+      echo "calibration: /etc/darkling/mine"
+    fi
+    echo "pixel_format: grey"
+    echo "rate_hz: $rate_hz"
+    echo "points_per_level: 300"
+    for setting in "$@"; do echo "${setting%%=*}: ${setting#*=}"; done
+  } | awk -F: '{ last[$1] = $0; if (!seen[$1]++) order[++n] = $1 }
+               END { for (i = 1; i <= n; ++i) print last[order[i]] }' >"$config"
+}
+
+property() { systemctl show -P "$1" darklingd; }
+main_pid() { property MainPID; }
+is_active() { systemctl is-active --quiet darklingd; }
+
+# The journal of the service since the scenario began.
+service_log() { journalctl -u darklingd --since "@$scenario_start" -o cat --no-pager; }
+service_says() { service_log | grep -Eiq -- "$1"; }
+
+# Starts what `configure` wrote; Type=notify: it returns when the service says it is ready.
+start_service() {
+  systemctl reset-failed darklingd 2>/dev/null
+  check "the service starts and says that it is ready" systemctl restart darklingd
+}
+
+start_feed() {
+  [[ -n "${feed_pid:-}" ]] && return
+  feed_loopback "$loopback_left" "$loopback_right" "$(<"$assets/mine.size")" "$rate_hz" \
+    "$assets/mine.raw" "$scratch/feed.log" &
+  feed_pid=$!
+  wait_until 10 test -s "$scratch/feed.log" || fail "frames are fed to the loopback devices"
+}
+
+stop_feed() {
+  [[ -z "${feed_pid:-}" ]] && return
+  kill "$feed_pid" 2>/dev/null
+  wait "$feed_pid" 2>/dev/null
+  feed_pid=
+}
+
+# check_heard CLAIM SECONDS "CHANNEL CONDITION…" [OPTION…]: whether that is published; see hear.cpp.
+# What was heard is kept in $scratch/heard.
+check_heard() {
+  local claim="$1" seconds="$2" wanted="$3"
+  shift 3
+  if hear --for "$seconds" --until "$wanted" "$@" >"$scratch/heard" 2>&1; then
+    ok "$claim"
+  else
+    fail "$claim" "$(wc -l <"$scratch/heard") messages, at last: $(tail -n 1 "$scratch/heard")"
+  fi
+}
+
+# heard CHANNEL KEY: that field of the last such message in $scratch/heard.
+heard() {
+  grep "^$1 " "$scratch/heard" | tail -n 1 | tr ' ' '\n' | sed -n "s/^$2=//p"
+}

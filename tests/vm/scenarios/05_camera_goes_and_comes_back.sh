@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+# A camera that is pulled out is a state that is published, and is taken up again when it returns.
+driver=/sys/bus/platform/drivers/vivid
+configure vivid
+start_service
+check_heard "frames arrive" 40 "VO_STATUS state!=NO_CAMERA frames_in>5"
+pid="$(main_pid)"
+
+echo vivid.0 >"$driver/unbind"
+check "the camera's node is gone" wait_until 5 test ! -e "$vivid_left"
+check_heard "a missing camera is published" 10 "VO_STATUS state=NO_CAMERA"
+check_heard "and goes on being published, twice a second" 4 "VO_STATUS state=NO_CAMERA" --times 5
+frames_before="$(heard VO_STATUS frames_in)"
+
+echo vivid.0 >"$driver/bind"
+check "the camera's node is back" wait_until 10 test -e "$vivid_left"
+udevadm settle
+check_heard "frames arrive again" 30 \
+  "VO_STATUS state!=NO_CAMERA frames_in>$((${frames_before:-0} + 5))"
+check_equal "in the same process" "$pid" "$(main_pid)"
+
+# The driver's own way to be pulled out: the node comes back as soon as the last user lets go.
+v4l2-ctl -d "$vivid_left" --set-ctrl=disconnect=1 >/dev/null 2>&1
+frames_before="$(heard VO_STATUS frames_in)"
+check_heard "frames arrive after a short disconnection" 30 \
+  "VO_STATUS state!=NO_CAMERA frames_in>$((${frames_before:-0} + 15))"
+check_equal "still in the same process" "$pid" "$(main_pid)"
