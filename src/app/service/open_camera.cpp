@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "drivers/framelog/framelog_source.h"
 #include "drivers/framelog/frame_log.h"
+#include "drivers/framelog/framelog_source.h"
 #include "drivers/live/paced_source.h"
 #include "drivers/live/rehearsed_source.h"
 #include "drivers/synthetic/synthetic_source.h"

@@ -8,7 +8,6 @@
 #include "platform/clocks.h"
 #include "platform/process_memory.h"
 #include "platform/realtime.h"
-#include "platform/service_notify.h"
 
 namespace darkling {
 
@@ -24,15 +23,13 @@ double to_ms(Duration time) {
 }  // namespace
 
 OutputThread::OutputThread(const Links& links, const PipelineFacts& facts,
-                           const ServiceConfig& config, std::optional<Duration> watchdog_period)
+                           const ServiceConfig& config)
     : links_(links),
       facts_(facts),
       started_at_(read_monotonic_clock()),
-      watchdog_period_(watchdog_period),
       reset_counter_(facts.first_reset_counter),
       publisher_(config.lcm_url, config.channel_prefix),
       health_(started_at_, facts.period),
-      fed_at_(started_at_),
       status_at_(started_at_),
       thread_([this] { serve(); }) {}
 
@@ -55,7 +52,9 @@ void OutputThread::serve() {
       publish(*tracked);
     }
     const MonotonicTime now = read_monotonic_clock();
-    keep_alive(now);
+    links_.status.output_heartbeat.beat();
+    publisher_.open_when_due(now);
+    if (!links_.status.is_stopping) judge(now);
     if (is_last || now - status_at_ >= kStatusPeriod) publish_status(now);
   }
 }
@@ -76,27 +75,13 @@ void OutputThread::publish(TrackedFrame& tracked) {
   ++(estimate.status == TrackStatus::kLost ? frames_lost_ : frames_tracked_);
 }
 
-// The watchdog hears from here alone, and only while everybody else is heard of.
-void OutputThread::keep_alive(MonotonicTime now) {
-  const PipelineStatus& pipeline = links_.status;
-  const bool are_threads_alive =
-      pipeline.capture_heartbeat.is_fresh(now) && pipeline.odometry_heartbeat.is_fresh(now);
-  if (!pipeline.is_stopping) judge(now, are_threads_alive);
-  publisher_.open_when_due(now);
-  constexpr int kFeedsPerPeriod = 4;
-  if (!are_threads_alive || !watchdog_period_) return;
-  if (now - fed_at_ < *watchdog_period_ / kFeedsPerPeriod) return;
-  feed_watchdog();
-  fed_at_ = now;
-}
-
-void OutputThread::judge(MonotonicTime now, bool are_threads_alive) {
+void OutputThread::judge(MonotonicTime now) {
   const PipelineStatus& pipeline = links_.status;
   const ServiceState before = state_;
   const Health::Camera camera = pipeline.is_camera_open     ? Health::Camera::kOpen
                                 : pipeline.is_first_opening ? Health::Camera::kOpening
                                                             : Health::Camera::kAbsent;
-  state_ = health_.judge(now, camera, are_threads_alive);
+  state_ = health_.judge(now, camera, pipeline.are_threads_alive(now));
   if (state_ == before) return;
   tell_state(now);
   const bool is_trouble = state_ == ServiceState::kLost || state_ == ServiceState::kFault;
@@ -120,7 +105,7 @@ void OutputThread::tell_state(MonotonicTime now) {
   } else {
     report_warning(line);
   }
-  notify_status(line.c_str());
+  links_.status.state_line.set(line);
 }
 
 // What counts from when the counters were last zeroed.

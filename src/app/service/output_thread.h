@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <optional>
 #include <string>
 #include <thread>
 
@@ -33,7 +32,7 @@ struct PipelineFacts {
 };
 
 // Publishes every estimate when it comes, and twice a second how the service is, whatever else
-// happens; feeds the watchdog as long as every thread shows signs of life.
+// happens.
 class OutputThread {
  public:
   struct Links {
@@ -44,8 +43,7 @@ class OutputThread {
     const FrameSource& source;
     Recorder* recorder;  // may be null
   };
-  OutputThread(const Links& links, const PipelineFacts& facts, const ServiceConfig& config,
-               std::optional<Duration> watchdog_period);
+  OutputThread(const Links& links, const PipelineFacts& facts, const ServiceConfig& config);
   // Sends what is left, and a last status.
   ~OutputThread();
   OutputThread(const OutputThread&) = delete;
@@ -59,8 +57,7 @@ class OutputThread {
  private:
   void serve();
   void publish(TrackedFrame& tracked);
-  void keep_alive(MonotonicTime now);
-  void judge(MonotonicTime now, bool are_threads_alive);
+  void judge(MonotonicTime now);
   void tell_state(MonotonicTime now);
   void publish_status(MonotonicTime now);
   void fill_counts();
@@ -70,8 +67,6 @@ class OutputThread {
   Links links_;
   PipelineFacts facts_;
   MonotonicTime started_at_;
-  std::optional<Duration> watchdog_period_;
-  bool has_bot_core_pose_;
   std::atomic<int> reset_counter_;
   std::atomic<bool> is_zeroing_wanted_ = false;
   std::atomic<bool> is_stopping_ = false;
@@ -87,14 +82,12 @@ class OutputThread {
   std::int64_t frames_tracked_ = 0;
   std::int64_t frames_lost_ = 0;
   std::int64_t deadline_misses_ = 0;
-  MonotonicTime fed_at_;
   MonotonicTime status_at_;
   std::int64_t pairs_in_before_ = 0;  // at the last status
   std::int64_t estimates_before_ = 0;
   std::int64_t skipped_before_ = 0;
   std::int64_t not_recorded_before_ = 0;
-  std::string told_error_;  // of the camera
-  std::thread thread_;      // last: it uses all of the above
+  std::thread thread_;  // last: it uses all of the above
 };
 
 }  // namespace darkling

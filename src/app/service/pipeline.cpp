@@ -14,9 +14,13 @@ namespace darkling {
 Result<std::unique_ptr<Pipeline>> Pipeline::create(const Config& config) {
   auto camera = open_camera(config);
   if (!camera) return tl::unexpected(camera.error());
+  return create(config, std::move(*camera));
+}
+
+Result<std::unique_ptr<Pipeline>> Pipeline::create(const Config& config, LiveCamera camera) {
   const auto kernels = select_kernels("auto", detect_cpu_features());
   if (!kernels) return tl::unexpected(kernels.error());
-  std::unique_ptr<Pipeline> pipeline(new Pipeline(config, std::move(*camera), *kernels));
+  std::unique_ptr<Pipeline> pipeline(new Pipeline(config, std::move(camera), *kernels));
   auto odometry = Odometry::create(config.odometry, pipeline->camera_.rig, *kernels,
                                    read_monotonic_clock, &pipeline->refinement_);
   if (!odometry) return tl::unexpected(odometry.error());
@@ -27,7 +31,7 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(const Config& config) {
 Pipeline::Pipeline(const Config& config, LiveCamera camera, const KernelTable& kernels)
     : config_(config), camera_(std::move(camera)), kernels_(kernels) {}
 
-void Pipeline::start(std::optional<Duration> watchdog_period, int first_reset_counter) {
+void Pipeline::start(int first_reset_counter) {
   const RectifiedRig& rig = odometry_->rig();
   const PipelineFacts facts{
       .camera = camera_.name,
@@ -52,7 +56,7 @@ void Pipeline::start(std::optional<Duration> watchdog_period, int first_reset_co
   output_ = std::make_unique<OutputThread>(
       OutputThread::Links{estimates_, output_wake_, status_, *capture_, *camera_.source,
                           recorder_.get()},
-      facts, config_.service, watchdog_period);
+      facts, config_.service);
   commands_ = std::make_unique<CommandThread>(
       CommandThread::Links{wishes_, [this](std::int8_t command) { obey(command); }},
       config_.service.lcm_url, config_.service.channel_prefix);

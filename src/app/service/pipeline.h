@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "app/service/capture_thread.h"
 #include "app/service/command_thread.h"
@@ -25,17 +24,20 @@ class Pipeline {
   // Checks the configuration as a whole and claims the odometry's memory; opens no device.
   // @return what open_camera() and Odometry::create() refuse.
   static Result<std::unique_ptr<Pipeline>> create(const Config& config);
+  // The same with a camera that is found already.
+  static Result<std::unique_ptr<Pipeline>> create(const Config& config, LiveCamera camera);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
 
   // Starts the threads. @pre once.
   // @param first_reset_counter  0, or one more than of the pipeline that this one takes over from.
-  void start(std::optional<Duration> watchdog_period, int first_reset_counter);
+  void start(int first_reset_counter);
   // @pre start().
   [[nodiscard]] int reset_counter() const { return output_->reset_counter(); }
   // A recording that stands in for a camera has come to its end, and all of it is published.
   [[nodiscard]] bool is_over() const;
+  [[nodiscard]] PipelineStatus& status() { return status_; }
 
  private:
   Pipeline(const Config& config, LiveCamera camera, const KernelTable& kernels);

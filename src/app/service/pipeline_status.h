@@ -3,6 +3,10 @@
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "app/service/heartbeat.h"
 #include "vo/estimate.h"
@@ -18,6 +22,25 @@ class Count {
 
  private:
   std::atomic<std::int64_t> value_ = 0;
+};
+
+// What the service is doing, for people, whenever that changes.
+// Thread: any.
+class StateLine {
+ public:
+  void set(const std::string& line) {
+    const std::lock_guard lock(mutex_);
+    line_ = line;
+  }
+  // @return the line that was set since the last call, or nothing.
+  [[nodiscard]] std::optional<std::string> take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(line_, std::nullopt);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::optional<std::string> line_;
 };
 
 // What the threads of the service know of each other. Everything counts since the pipeline started.
@@ -40,6 +63,16 @@ struct PipelineStatus {
   Count estimates_refused;  // the output had not taken those before
   Count refinement_overruns;
   Count heap_calls;  // since it began; -1: not counted
+  // Of the thread that publishes:
+  Heartbeat output_heartbeat;
+  StateLine state_line;
+
+  // Every thread has shown signs of life.
+  [[nodiscard]] bool are_threads_alive(MonotonicTime now) const {
+    return capture_heartbeat.is_fresh(now) && odometry_heartbeat.is_fresh(now) &&
+           output_heartbeat.is_fresh(now);
+  }
+
   // Pairs that were handed over and not given back yet: a source is stopped only when there is
   // none.
   Count pairs_in_flight;

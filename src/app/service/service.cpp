@@ -2,6 +2,7 @@
 #include "app/service/service.h"
 
 #include <memory>
+#include <optional>
 
 #include "app/service/journal.h"
 #include "app/service/pipeline.h"
@@ -24,15 +25,14 @@ Result<std::unique_ptr<Pipeline>> prepare(const ServiceOptions& options) {
 }
 
 // Everything that can be wrong with the new configuration is found before the old one goes.
-void reload(const ServiceOptions& options, std::optional<Duration> watchdog_period,
-            std::unique_ptr<Pipeline>& pipeline) {
+void reload(const ServiceOptions& options, std::unique_ptr<Pipeline>& pipeline) {
   notify_reloading();
   auto renewed = prepare(options);
   if (renewed) {
     const int reset_counter = pipeline->reset_counter() + 1;  // the pose begins anew
     pipeline.reset();
     pipeline = std::move(*renewed);
-    pipeline->start(watchdog_period, reset_counter);
+    pipeline->start(reset_counter);
     report_info("reload=done config=" + options.config_path);
   } else {
     report_error("reload=refused, the old configuration stays: " + renewed.error().message);
@@ -40,21 +40,43 @@ void reload(const ServiceOptions& options, std::optional<Duration> watchdog_peri
   notify_ready();
 }
 
+// Tells systemd how the service is, from a thread that nothing else waits for: a notification may
+// block. The watchdog hears of it only while every thread shows signs of life.
+class Supervisor {
+ public:
+  Supervisor() : watchdog_period_(read_watchdog_period()), fed_at_(read_monotonic_clock()) {}
+
+  void look_at(PipelineStatus& status) {
+    if (const auto line = status.state_line.take()) notify_status(line->c_str());
+    const MonotonicTime now = read_monotonic_clock();
+    constexpr int kFeedsPerPeriod = 4;
+    if (!watchdog_period_ || now - fed_at_ < *watchdog_period_ / kFeedsPerPeriod) return;
+    if (!status.are_threads_alive(now)) return;
+    feed_watchdog();
+    fed_at_ = now;
+  }
+
+ private:
+  std::optional<Duration> watchdog_period_;
+  MonotonicTime fed_at_;
+};
+
 }  // namespace
 
 Result<int> run_service(const ServiceOptions& options) {
   catch_stop_signals();
   catch_reload_signal();
-  const std::optional<Duration> watchdog_period = read_watchdog_period();
+  Supervisor supervisor;
   auto prepared = prepare(options);
   if (!prepared) return tl::unexpected(prepared.error());
   std::unique_ptr<Pipeline> pipeline = std::move(*prepared);
-  pipeline->start(watchdog_period, 0);
+  pipeline->start(/*first_reset_counter=*/0);
   notify_ready();
   report_info("service=started version=" DARKLING_VERSION);
   while (!is_stop_requested() && !pipeline->is_over()) {
     static_cast<void>(sleep_until(read_monotonic_clock() + kWait));
-    if (take_reload_request()) reload(options, watchdog_period, pipeline);
+    if (take_reload_request()) reload(options, pipeline);
+    supervisor.look_at(pipeline->status());
   }
   notify_stopping();
   pipeline.reset();
