@@ -39,8 +39,8 @@ template <class Message>
 bool ends_in_three_strings(std::span<const std::byte> bytes) {
   constexpr int kCount = 3;
   constexpr int kEmptySize = 5;  // the length and the zero
-  static const int first_at = Message{}.getEncodedSize() - kCount * kEmptySize;
-  return are_strings(bytes, static_cast<std::size_t>(first_at), kCount);
+  static const int kFirstAt = Message{}.getEncodedSize() - kCount * kEmptySize;
+  return are_strings(bytes, static_cast<std::size_t>(kFirstAt), kCount);
 }
 
 }  // namespace
