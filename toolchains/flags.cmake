@@ -38,6 +38,10 @@ if(DARKLING_SANITIZE)
     -fsanitize=${DARKLING_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(darkling_flags INTERFACE -fsanitize=${DARKLING_SANITIZE})
 endif()
+if(DARKLING_FUZZ)
+  target_compile_options(darkling_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(darkling_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # For the layers that run every frame: no function may take more stack than this. The largest
 # today are functions of the start, with 5 KiB.

@@ -36,6 +36,7 @@ struct Verb {
 constexpr std::array kVerbs = std::to_array<Verb>({
     {"replay", "Run the odometry over a recording or a synthetic scene", declare_replay},
     {"render", "Write a synthetic stereo recording with exact truth", declare_render},
+    {"convert", "Write any recording as a frame log or a dataset", declare_convert},
     {"check", "Say what would be wrong before a start, and what memory it takes", declare_check},
     {"eval", "Compare an estimated trajectory with the true one", declare_eval},
     {"bench", "Measure kernels and stages on this machine", declare_bench},

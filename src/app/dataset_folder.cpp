@@ -26,6 +26,13 @@ Result<void> make_folder(const std::string& path) {
   return failure(ExitCode::kUsage, path + ": the folder cannot be made: " + error.message());
 }
 
+Result<void> remove_file(const std::string& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (!error) return {};
+  return failure(ExitCode::kUsage, path + ": cannot be removed: " + error.message());
+}
+
 Result<void> prepare_folder(const std::string& folder, bool is_forced) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);

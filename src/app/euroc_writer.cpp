@@ -16,14 +16,17 @@ std::string describe_sensor(const DatasetDescription& description, const Camera&
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(17);
-  out << "# Rendered: " << description.scene << "\nsensor_type: camera\n\n"
-      << "# T_body_camera; body: x forward, y left, z up.\nT_BS:\n  cols: 4\n  rows: 4\n  data: [";
+  out << "# " << description.about
+      << "\nsensor_type: camera\n\n# T_body_camera\nT_BS:\n  cols: 4\n  rows: 4\n  data: [";
   const Eigen::Matrix4d T = T_body_camera.matrix();
   for (int i = 0; i < 16; ++i) out << (i > 0 ? ", " : "") << T(i / 4, i % 4) + 0.0;
-  out << "]\n\nrate_hz: " << description.rate_hz << "\nresolution: [" << camera.width << ", "
-      << camera.height << "]\ncamera_model: pinhole\nintrinsics: [" << camera.fx << ", "
-      << camera.fy << ", " << camera.cx << ", " << camera.cy
-      << "]  # fu, fv, cu, cv\ndistortion_model: radial-tangential\ndistortion_coefficients: [";
+  out << "]\n\n";
+  if (description.rate_hz > 0.0) out << "rate_hz: " << description.rate_hz << "\n";
+  out << "resolution: [" << camera.width << ", " << camera.height
+      << "]\ncamera_model: pinhole\nintrinsics: [" << camera.fx << ", " << camera.fy << ", "
+      << camera.cx << ", " << camera.cy << "]  # fu, fv, cu, cv\ndistortion_model: "
+      << (camera.distortion == Distortion::kEquidistant ? "equidistant" : "radial-tangential")
+      << "\ndistortion_coefficients: [";
   for (int i = 0; i < 4; ++i) out << (i > 0 ? ", " : "") << camera.coefficients[i];
   out << "]\n";
   return out.str();
@@ -31,16 +34,26 @@ std::string describe_sensor(const DatasetDescription& description, const Camera&
 
 class EurocWriter : public DatasetWriter {
  public:
-  EurocWriter(std::string mav0, std::array<OutputFile, 2> indices, OutputFile truth)
-      : mav0_(std::move(mav0)), indices_(std::move(indices)), truth_(std::move(truth)) {}
+  EurocWriter(const std::string& folder, std::array<OutputFile, 2> indices, OutputFile truth)
+      : mav0_(folder + "/mav0"),
+        truth_path_(folder + "/groundtruth.tum"),
+        indices_(std::move(indices)),
+        truth_(std::move(truth)) {}
 
-  Result<void> add(const StereoFrame& frame, const Se3& T_world_body) override {
+  Result<void> add(const StereoFrame& frame, const std::optional<Se3>& T_world_body) override {
     const std::string stamp = std::to_string(to_ns(frame.stamp));
     for (int eye = 0; eye < 2; ++eye) {
       const std::string path = mav0_ + "/cam" + std::to_string(eye) + "/data/" + stamp + ".png";
       if (auto w = write_png(path, eye == 0 ? frame.left : frame.right); !w) return w;
     }
-    truth_.append(format_tum_row(frame.stamp, T_world_body));
+    return skip(frame.stamp, T_world_body);
+  }
+
+  // The rows name images that are not there.
+  Result<void> skip(FrameTime time, const std::optional<Se3>& T_world_body) override {
+    const std::string stamp = std::to_string(to_ns(time));
+    if (T_world_body) truth_.append(format_tum_row(time, *T_world_body));
+    has_truth_ = has_truth_ || T_world_body.has_value();
     for (OutputFile& index : indices_) index.append(stamp + "," + stamp + ".png\n");
     return {};
   }
@@ -50,13 +63,16 @@ class EurocWriter : public DatasetWriter {
     for (OutputFile* file : {&indices_[0], &indices_[1], &truth_}) {
       if (auto closed = file->close(); !closed && outcome) outcome = closed;
     }
+    if (!has_truth_ && outcome) outcome = remove_file(truth_path_);
     return outcome;
   }
 
  private:
   std::string mav0_;
+  std::string truth_path_;
   std::array<OutputFile, 2> indices_;
   OutputFile truth_;
+  bool has_truth_ = false;
 };
 
 // Makes mav0/camN with its calibration. @return the camera's empty index.
@@ -84,9 +100,8 @@ Result<std::unique_ptr<DatasetWriter>> create_euroc_writer(const DatasetDescript
   auto truth = OutputFile::open(description.folder + "/groundtruth.tum");
   if (!truth) return tl::unexpected(truth.error());
   truth->append("# timestamp(s) tx ty tz qx qy qz qw : T_world_body at mid-exposure\n");
-  return std::make_unique<EurocWriter>(description.folder + "/mav0",
-                                       std::array{std::move(*left), std::move(*right)},
-                                       std::move(*truth));
+  return std::make_unique<EurocWriter>(
+      description.folder, std::array{std::move(*left), std::move(*right)}, std::move(*truth));
 }
 
 }  // namespace darkling

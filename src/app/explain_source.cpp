@@ -19,6 +19,7 @@ constexpr const char* kRecognised =
     "\n  a KITTI folder: image_0/ image_1/ calib.txt times.txt"
     "\n  an EuRoC folder: mav0/cam0/data.csv mav0/cam1/data.csv, calibrated by sensor.yaml files or"
     "\n    a camchain.yaml"
+    "\n  a frame log: NAME.lcmlog, as `darkling convert` writes it"
     "\n  synthetic:SCENE[,key=value...]";
 
 // The folder above `path` that is a recording, at most four up: a camera's images lie three deep.

@@ -37,31 +37,47 @@ class KittiWriter : public DatasetWriter {
         times_(std::move(times)),
         poses_(std::move(poses)) {}
 
-  Result<void> add(const StereoFrame& frame, const Se3& T_world_body) override {
-    if (!T_first_world_) {
-      T_first_world_ = (T_world_body * T_body_left_).inverse();
-      first_stamp_ = frame.stamp;
-    }
+  Result<void> add(const StereoFrame& frame, const std::optional<Se3>& T_world_body) override {
     char name[32];
-    std::snprintf(name, sizeof(name), "/%06lld.png", static_cast<long long>(frame.sequence));
+    std::snprintf(name, sizeof(name), "/%06lld.png", static_cast<long long>(row_count_));
     if (auto w = write_png(folder_ + "/image_0" + name, frame.left); !w) return w;
     if (auto w = write_png(folder_ + "/image_1" + name, frame.right); !w) return w;
-    poses_.append(format_kitti_row(*T_first_world_ * T_world_body * T_body_left_));
-    times_.append(seconds_text_from_ns((frame.stamp - first_stamp_).count()) + "\n");
+    add_row(frame.stamp, T_world_body);
+    return {};
+  }
+
+  Result<void> skip(FrameTime stamp, const std::optional<Se3>& T_world_body) override {
+    add_row(stamp, T_world_body);
     return {};
   }
 
   Result<void> close() override {
     const auto times = times_.close();
-    const auto poses = poses_.close();
+    auto poses = poses_.close();
+    // A line of poses.txt has no stamp: with one missing, the others would be of other frames.
+    if (is_pose_missing_ && poses) poses = remove_file(folder_ + "/poses.txt");
     return times ? poses : times;
   }
 
  private:
+  void add_row(FrameTime stamp, const std::optional<Se3>& T_world_body) {
+    if (row_count_++ == 0) {
+      first_stamp_ = stamp;
+      if (T_world_body) T_first_world_ = (*T_world_body * T_body_left_).inverse();
+    }
+    is_pose_missing_ = is_pose_missing_ || !T_world_body;
+    if (!is_pose_missing_) {
+      poses_.append(format_kitti_row(*T_first_world_ * *T_world_body * T_body_left_));
+    }
+    times_.append(seconds_text_from_ns((stamp - first_stamp_).count()) + "\n");
+  }
+
   std::string folder_;
   Se3 T_body_left_;
   std::optional<Se3> T_first_world_;
   FrameTime first_stamp_;
+  std::int64_t row_count_ = 0;  // images are named by it
+  bool is_pose_missing_ = false;
   OutputFile times_;
   OutputFile poses_;
 };

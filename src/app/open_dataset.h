@@ -16,6 +16,9 @@ namespace darkling {
 
 [[nodiscard]] Result<Recording> open_kitti(const std::string& folder, const OpenOptions& options);
 [[nodiscard]] Result<Recording> open_euroc(const std::string& folder, const OpenOptions& options);
+// @param path  a file; a frame log by its first bytes or its name's end.
+[[nodiscard]] bool is_frame_log(const std::string& path);
+[[nodiscard]] Result<Recording> open_framelog(const std::string& path, const OpenOptions& options);
 // @param text  "synthetic:SCENE[,key=value…]".
 [[nodiscard]] Result<Recording> open_synthetic(std::string_view text, const OpenOptions& options);
 

@@ -32,6 +32,7 @@ Result<Recording> open_source(std::string_view text, const OpenOptions& options)
   if (text.starts_with("synthetic:")) return open_synthetic(text, options);
   std::string folder(text);
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
+  if (is_frame_log(folder)) return open_framelog(folder, options);
   const auto layout = recognise_layout(folder);
   if (!layout) return tl::unexpected(explain_unknown_source(folder));
   return *layout == DatasetLayout::kKitti ? open_kitti(folder, options)

@@ -16,15 +16,15 @@ constexpr const char* kEraseLine = "\r\033[K";
 const char* name_of(TrackStatus status) {
   switch (status) {
     case TrackStatus::kValid:
-      return "tracking";
+      return ", tracking";
     case TrackStatus::kDegraded:
-      return "degraded";
+      return ", degraded";
     case TrackStatus::kLost:
-      return "lost";
+      return ", lost";
     case TrackStatus::kUnknown:
       break;
   }
-  return "starting";
+  return ", starting";
 }
 
 }  // namespace
@@ -40,6 +40,14 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::show(std::int64_t frames, TrackStatus status) {
+  write(frames, name_of(status));
+}
+
+void ProgressLine::show(std::int64_t frames) {
+  write(frames, "");
+}
+
+void ProgressLine::write(std::int64_t frames, const char* state) {
   if (!is_on_) return;
   const MonotonicTime now = read_monotonic_clock();
   if (now - shown_at_ < kPeriod) return;
@@ -47,12 +55,12 @@ void ProgressLine::show(std::int64_t frames, TrackStatus status) {
   const double elapsed_s = std::chrono::duration<double>(now - started_at_).count();
   const double rate_hz = static_cast<double>(frames) / elapsed_s;
   if (frame_count_ > 0) {
-    std::fprintf(stderr, "%sframe %lld of %lld, %.0f a second, %s", kEraseLine,
+    std::fprintf(stderr, "%sframe %lld of %lld, %.0f a second%s", kEraseLine,
                  static_cast<long long>(frames), static_cast<long long>(frame_count_), rate_hz,
-                 name_of(status));
+                 state);
   } else {
-    std::fprintf(stderr, "%sframe %lld, %.0f a second, %s", kEraseLine,
-                 static_cast<long long>(frames), rate_hz, name_of(status));
+    std::fprintf(stderr, "%sframe %lld, %.0f a second%s", kEraseLine,
+                 static_cast<long long>(frames), rate_hz, state);
   }
   std::fflush(stderr);
 }

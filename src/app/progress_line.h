@@ -20,8 +20,12 @@ class ProgressLine {
 
   // @param frames  done so far. @param status  of the last.
   void show(std::int64_t frames, TrackStatus status);
+  // The same where nothing is tracked.
+  void show(std::int64_t frames);
 
  private:
+  void write(std::int64_t frames, const char* state);
+
   std::int64_t frame_count_;
   bool is_on_;
   MonotonicTime started_at_;

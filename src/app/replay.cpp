@@ -40,7 +40,10 @@ struct Truth {
 // The truth the user names, else the recording's own, else none.
 Result<Truth> find_truth(const ReplayOptions& options, const Recording& recording) {
   const std::string path = options.truth_path.empty() ? recording.truth_path : options.truth_path;
-  if (path.empty()) return Truth{recording.truth, recording.truth ? "exact" : ""};
+  if (path.empty() && !recording.truth) return Truth{};
+  if (path.empty()) {
+    return Truth{recording.truth, recording.kind == "synthetic" ? "exact" : "the log's own"};
+  }
   const auto trajectory = read_trajectory(path);
   if (!trajectory) return tl::unexpected(trajectory.error());
   return Truth{*trajectory, path};
@@ -159,6 +162,9 @@ RunReport report_run(Run& run, const ReplayOptions& options) {
 Result<int> replay(const ReplayOptions& options) {
   auto run = prepare(options);
   if (!run) return tl::unexpected(run.error());
+  if (!run->recording.damage.empty()) {
+    std::fprintf(stderr, "darkling: %s\n", run->recording.damage.c_str());
+  }
   catch_stop_signals();
   const auto played = play(*run, options.pace);
 

@@ -19,6 +19,7 @@ using VerbAction = std::function<Result<int>()>;
 [[nodiscard]] VerbAction declare_check(CLI::App& command);
 [[nodiscard]] VerbAction declare_eval(CLI::App& command);
 [[nodiscard]] VerbAction declare_render(CLI::App& command);
+[[nodiscard]] VerbAction declare_convert(CLI::App& command);
 [[nodiscard]] VerbAction declare_bench(CLI::App& command);
 
 // Ended by SIGINT or SIGTERM: what shells report for a program that SIGINT killed.

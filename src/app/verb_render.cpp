@@ -77,7 +77,7 @@ Result<int> run_render(const RenderOptions& options) {
     return tl::unexpected(ok.error());
   }
   const DatasetDescription description{.folder = options.folder,
-                                       .scene = spec.scene,
+                                       .about = "Rendered: " + spec.scene,
                                        .rig = make_synthetic_rig(spec),
                                        .rate_hz = spec.rate_hz};
   const bool is_euroc = options.layout == DatasetLayout::kEuroc;

@@ -96,6 +96,7 @@ constexpr const char* kMore =
     "  an EuRoC folder           mav0/camN/data.csv with sensor.yaml files, or a Kalibr\n"
     "                            camchain.yaml beside mav0; truth in\n"
     "                            mav0/state_groundtruth_estimate0/data.csv or groundtruth.tum\n"
+    "  a frame log               NAME.lcmlog, as `darkling convert` writes it\n"
     "  synthetic:SCENE[,key=value...]  rendered on the fly; `darkling render --help` lists them\n\n"
     "Trajectories: `kitti` rows are T_world_left of the rectified left camera, the first the\n"
     "identity, one for every input frame, bad ones included. `tum` rows are T_world_body with the\n"
@@ -112,7 +113,7 @@ constexpr const char* kMore =
 
 void declare_input(CLI::App& command, ReplayWords& words) {
   command.add_option("SOURCE", words.source, "The recording to play")
-      ->type_name("FOLDER|synthetic:SCENE");
+      ->type_name("FOLDER|FILE.lcmlog|synthetic:SCENE");
   command.add_option("--config", words.config_path, "Configuration file (YAML)")->type_name("FILE");
   command.add_option("--set", words.settings, "One key of the configuration; repeatable")
       ->type_name("KEY=VALUE")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "messages/wire.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "messages/big_endian.h"
@@ -25,8 +26,10 @@ bool are_strings(std::span<const std::byte> bytes, std::size_t at, int count) {
     const auto length = load_big_endian<std::int32_t>(bytes, at);
     at += sizeof(std::int32_t);
     if (length < 1 || bytes.size() - at < static_cast<std::size_t>(length)) return false;
-    at += static_cast<std::size_t>(length);
-    if (bytes[at - 1] != std::byte{0}) return false;
+    const auto text = bytes.subspan(at, static_cast<std::size_t>(length));
+    // A zero within would end the string when it is sent on.
+    if (std::find(text.begin(), text.end(), std::byte{0}) != text.end() - 1) return false;
+    at += text.size();
   }
   return at == bytes.size();
 }
@@ -36,8 +39,8 @@ template <class Message>
 bool ends_in_three_strings(std::span<const std::byte> bytes) {
   constexpr int kCount = 3;
   constexpr int kEmptySize = 5;  // the length and the zero
-  static const int first_at = Message{}.getEncodedSize() - kCount * kEmptySize;
-  return are_strings(bytes, static_cast<std::size_t>(first_at), kCount);
+  static const int kFirstAt = Message{}.getEncodedSize() - kCount * kEmptySize;
+  return are_strings(bytes, static_cast<std::size_t>(kFirstAt), kCount);
 }
 
 }  // namespace

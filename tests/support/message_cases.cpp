@@ -76,7 +76,7 @@ status_t extreme_status() {
   m.is_recording = 1;
   m.width = kMax32;
   m.kernels = "";
-  m.version = std::string(1000, 'v');
+  m.version = std::string(300, 'v');
   m.camera = "v4l2:/dev/video0,/dev/video1 \xc3\xa4";
   return m;
 }
@@ -110,7 +110,7 @@ rig_t extreme_rig() {
   fill(&m.translation[0][0], 6);
   fill(&m.rotation[0][0], 8);
   m.source = "";
-  m.config = std::string(5000, '#');
+  m.config = std::string(500, '#');
   m.version = "1";
   return m;
 }

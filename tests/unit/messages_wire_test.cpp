@@ -69,6 +69,13 @@ TEST(Messages, SurviveEveryInt32InEveryPlace) {
   });
 }
 
+TEST(Messages, AreRefusedWithAZeroWithinAString) {
+  status_t status = extreme_status();
+  std::vector<std::byte> bytes = encoded(status);
+  bytes[bytes.size() - 3] = std::byte{0};
+  EXPECT_FALSE(decode_from(bytes, status));
+}
+
 TEST(Messages, SurviveRandomBytes) {
   std::mt19937 random(1);
   for_each_message([&](const auto& message) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/dataset_layout.h"
+#include "app/open_source.h"
+#include "base/result.h"
+
+namespace darkling {
+
+struct ConvertOptions {
+  std::string source;
+  OpenOptions frames;
+  std::string output;
+  std::optional<DatasetLayout> layout;  // nothing: a frame log
+  bool is_forced = false;               // write over what is there
+};
+
+// Writes the frames of a recording, its rig, its truth and its gaps into another one that `replay`
+// plays. An interrupted run leaves a shorter recording.
+// @return the exit status, kInterruptedStatus when a signal cut it short; kUsage when the output is
+//         not to be written to, cannot be, or cannot hold this recording; or what open_source()
+//         says.
+[[nodiscard]] Result<int> run_convert(const ConvertOptions& options);
+
+}  // namespace darkling

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must survive any bytes at all: entered by the fuzzers of tests/fuzz, and by unit tests with
+// random damage, so that every build runs it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace darkling::test {
+
+// Decodes `bytes` as every type of message.
+void decode_anything(std::span<const std::byte> bytes);
+
+// Opens a file of `bytes` as a frame log and plays it to its end, reading every pixel. Throws what
+// breaks the promises of a source: rows whose number does not grow, frames of another size than the
+// rig's.
+void play_anything(std::span<const std::byte> bytes);
+
+}  // namespace darkling::test
