@@ -7,17 +7,12 @@
 #include <span>
 #include <string>
 
+#include "base/image_size.h"
 #include "base/image_view.h"
 #include "base/result.h"
 #include "drivers/dataset/dataset_rows.h"
 
 namespace darkling {
-
-struct ImageSize {
-  int width = 0;   // px
-  int height = 0;  // px
-  bool operator==(const ImageSize&) const = default;
-};
 
 // Whether `bytes` are a PNG or JPEG file from its first byte to its end mark, with PNG check sums
 // that are right. Decoders give half an image for half a file.

@@ -83,14 +83,31 @@ Vector3 baseline_midway(const Se3& T_rawleft_rawright) {
   return so3_exp(half).conjugate() * T_rawleft_rawright.translation();
 }
 
+// Translations come in the unit in which the squares of the calibration board were given.
+std::string unit_remedy(double length_m) {
+  constexpr double kMillimetres = 1e-3;
+  const double as_mm = length_m * kMillimetres;
+  if (as_mm < kMinBaseline_m) return "";
+  std::string remedy = ". Is the translation in metres?";
+  if (as_mm <= kMaxBaseline_m) {
+    remedy += " Were it in mm, the baseline would be " + number_text(as_mm) +
+              " m: divide it by 1000; were it in squares of the board, multiply it by their "
+              "side in m";
+  }
+  return remedy;
+}
+
 Result<void> check_baseline(const Vector3& b) {
   const std::string found = "the right camera is at (" + number_text(b.x()) + ", " +
                             number_text(b.y()) + ", " + number_text(b.z()) +
                             ") m from the left one (x right, y down, z forward)";
   const double length_m = b.norm();
-  if (length_m < kMinBaseline_m || length_m > kMaxBaseline_m) {
-    return refuse("baseline of " + number_text(length_m) + " m: " + found + "; allowed: " +
-                  number_text(kMinBaseline_m) + " to " + number_text(kMaxBaseline_m) + " m");
+  // Said so that it refuses what overflowed to no number, too.
+  const bool is_plausible = length_m >= kMinBaseline_m && length_m <= kMaxBaseline_m;
+  if (!is_plausible) {
+    return refuse("baseline of " + number_text(length_m) + " m: " + found +
+                  "; allowed: " + number_text(kMinBaseline_m) + " to " +
+                  number_text(kMaxBaseline_m) + " m" + unit_remedy(length_m));
   }
   if (std::abs(b.y()) > std::abs(b.x()) && std::abs(b.y()) > std::abs(b.z())) {
     return refuse("the cameras are mounted one above the other: " + found +

@@ -4,12 +4,39 @@
 // is allowed.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "base/image_size.h"
 #include "base/result.h"
 #include "geometry/stereo_rig.h"
 
 namespace darkling {
+
+// Recognises by content what `path` is, and loads it:
+//   Kalibr camchain, or the folder of the only one;
+//   EuRoC folder `mav0`, one that holds it, or `sensor.yaml` of either camera;
+//   KITTI calib.txt, or its folder;
+//   OpenCV stereo YAML, or intrinsics.yml and extrinsics.yml side by side, or their folder;
+//   ROS camera_info: a folder of left.yaml and right.yaml, either of them, or "LEFT,RIGHT".
+// @param size  of the images, where that is known: KITTI's and many of OpenCV's do not say.
+// @return kConfiguration whatever is wrong; never throws.
+[[nodiscard]] Result<StereoRig> load_calibration(const std::string& path,
+                                                 std::optional<ImageSize> size = std::nullopt);
+
+// OpenCV's stereo calibration: M1, D1, M2, D2 (or K1…, cameraMatrix1, distCoeffs1…), R, T (m) and
+// image_width and image_height, or imageSize. Distortion is radial-tangential unless
+// `fisheye_model: 1` or `distortion_model: fisheye` says otherwise. Body is vehicle axes at the
+// left camera.
+// @param intrinsics_path, extrinsics_path  may be the same.
+// @param size  counts where neither file says.
+[[nodiscard]] Result<StereoRig> load_opencv_calibration(const std::string& intrinsics_path,
+                                                        const std::string& extrinsics_path,
+                                                        std::optional<ImageSize> size);
+
+// ROS camera_info of a pair that was calibrated together. Body is vehicle axes at the left camera.
+[[nodiscard]] Result<StereoRig> load_ros_calibration(const std::string& left_path,
+                                                     const std::string& right_path);
 
 // KITTI odometry `calib.txt`: the projections P0 and P1 (12 numbers, row-major 3×4) of the
 // rectified grey cameras. KITTI names no body: vehicle axes at the left camera stand in.
@@ -36,5 +63,8 @@ struct EurocCalibrationChoice {
 // @param folder  the one that holds `mav0`.
 // @return kConfiguration when there is neither, or more than one camchain.
 [[nodiscard]] Result<EurocCalibrationChoice> choose_euroc_calibration(const std::string& folder);
+
+// Whether there is such a camchain.
+[[nodiscard]] bool has_camchain(const std::string& folder);
 
 }  // namespace darkling

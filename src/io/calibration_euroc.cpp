@@ -71,6 +71,10 @@ Result<StereoRig> load_euroc_calibration(const std::string& mav0_folder) {
   return rig;
 }
 
+bool has_camchain(const std::string& folder) {
+  return !find_camchains(folder).empty();
+}
+
 Result<EurocCalibrationChoice> choose_euroc_calibration(const std::string& folder) {
   const std::string mav0 = folder + "/mav0";
   const bool have_sensors =

@@ -118,6 +118,10 @@ TEST(CheckRig, RefusesBaselinesThatAreZeroOrAbsurd) {
   EXPECT_THAT(refusal(rig_with_baseline({0.004, 0.0, 0.0})), HasSubstr("baseline of 0.004 m"));
   // Millimetres taken for metres.
   EXPECT_THAT(refusal(rig_with_baseline({110.0, 0.0, 0.0})), HasSubstr("baseline of 110 m"));
+  EXPECT_THAT(refusal(rig_with_baseline({110.0, 0.0, 0.0})),
+              HasSubstr("in mm, the baseline would be 0.11 m"));
+  EXPECT_THAT(refusal(rig_with_baseline({1e300, 0.0, 0.0})), HasSubstr("in metres?"));
+  EXPECT_THAT(refusal(rig_with_baseline({1e308, -1e308, 1e308})), HasSubstr("allowed: "));
 }
 
 TEST(CheckRig, AcceptsBaselinesAtBothBounds) {
