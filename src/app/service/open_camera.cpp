@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/service/open_camera.h"
 
-#include <filesystem>
-
 #include "drivers/framelog/frame_log.h"
 #include "drivers/framelog/framelog_source.h"
 #include "drivers/live/paced_source.h"
@@ -39,8 +37,7 @@ Result<StereoRig> load_rig(const Config& config) {
     return failure(ExitCode::kConfiguration,
                    "key 'calibration' is empty: cameras need one, name its file or folder");
   }
-  return std::filesystem::is_directory(path) ? load_euroc_calibration(path)
-                                             : load_kalibr_calibration(path);
+  return load_calibration(path);
 }
 
 Result<LiveCamera> open_v4l2(const Config& config) {
