@@ -54,7 +54,7 @@ TEST(Service, TellsOneLineForAChangeOfStateAndNoneForAFrame) {
 TEST(Service, EndsAtOnceWithoutSayingReadyWhenItIsConfiguredWrong) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "typo.yaml", "camera: synthetic:mine\nwidht_px: 96\n");
-  test::write_text(folder / "half.yaml", "camera: \"synthetic:mi");
+  test::write_text(folder / "half.yaml", "camera: [synthetic:mi");
   test::write_text(folder / "empty.yaml", "");
   struct Case {
     std::string path;

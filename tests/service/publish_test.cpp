@@ -78,8 +78,8 @@ TEST(Published, StatusTwiceASecondWithWhatTheServiceIs) {
 
 TEST(Published, NothingButStatusWithoutACamera) {
   const test::TemporaryFolder folder;
-  test::write_text(folder / "camchain.yaml", test::tiny_camchain());
-  ServiceProcess service({"camera=v4l2:/dev/no_such_video", "layout=side_by_side",
+  test::write_text(folder / "camchain.yaml", test::tiny_camchain({.width = 128, .height = 96}));
+  ServiceProcess service({"camera=v4l2:/dev/no_such_video", "layout=side_by_side", "width_px=96",
                           "calibration=" + (folder / "camchain.yaml")});
   ASSERT_TRUE(service.notifications().wait_for("READY=1", kPatience));
   ASSERT_TRUE(service.reaches(status_t::STATE_NO_CAMERA));
