@@ -86,4 +86,19 @@ void EstimateMessages::fill(const Estimate& estimate, Duration epoch_offset) {
   previous_stamp_ = estimate.stamp;
 }
 
+bot_core::pose_t EstimateMessages::bot_core_pose() const {
+  bot_core::pose_t pose = {};
+  pose.utime = pose_.utime;
+  std::copy_n(pose_.translation, 3, pose.pos);
+  std::copy_n(pose_.rotation, 4, pose.orientation);
+  const Vector3 v_body(pose_.velocity[0], pose_.velocity[1], pose_.velocity[2]);
+  if (!v_body.allFinite()) return pose;
+  const Eigen::Quaterniond q_world_body(pose_.rotation[0], pose_.rotation[1], pose_.rotation[2],
+                                        pose_.rotation[3]);
+  const Vector3 v_world = q_world_body * v_body;
+  std::copy_n(v_world.data(), 3, pose.vel);
+  std::copy_n(pose_.angular_velocity, 3, pose.rotation_rate);
+  return pose;
+}
+
 }  // namespace darkling

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/time.h"
+#include "messages/bot_core/pose_t.hpp"
 #include "messages/pose_t.hpp"
 #include "messages/update_t.hpp"
 #include "vo/estimate.h"
@@ -21,6 +22,8 @@ class EstimateMessages {
 
   [[nodiscard]] const update_t& update() const { return update_; }
   [[nodiscard]] const pose_t& pose() const { return pose_; }
+  // The same as other software knows it.
+  [[nodiscard]] bot_core::pose_t bot_core_pose() const;
 
  private:
   update_t update_ = {};

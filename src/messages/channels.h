@@ -7,6 +7,7 @@ namespace darkling {
 inline constexpr const char* kUpdateChannel = "VO_UPDATE";    // update_t
 inline constexpr const char* kPoseChannel = "VO_POSE";        // pose_t
 inline constexpr const char* kStatusChannel = "VO_STATUS";    // status_t
+inline constexpr const char* kBotCorePoseChannel = "POSE";    // bot_core.pose_t, when configured
 inline constexpr const char* kCommandChannel = "VO_COMMAND";  // command_t, to the service
 inline constexpr const char* kHintChannel = "VO_HINT";        // hint_t, to the service
 

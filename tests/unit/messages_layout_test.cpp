@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "messages/bot_core/pose_t.hpp"
 #include "messages/command_t.hpp"
 #include "messages/frame_t.hpp"
 #include "messages/gap_t.hpp"
@@ -50,6 +51,13 @@ TEST(MessageLayouts, DifferFromEachOther) {
   std::set<std::int64_t> found;
   for (const Fingerprint& each : kFingerprints) found.insert(each.found);
   EXPECT_EQ(found.size(), std::size(kFingerprints));
+}
+
+// Its members are not ours to choose.
+TEST(MessageLayouts, ThePoseForOthersIsTheOneTheyKnow) {
+  constexpr std::uint64_t kBeforeRotation = 0x170b77d82958082f;
+  EXPECT_EQ(static_cast<std::uint64_t>(bot_core::pose_t::getHash()),
+            (kBeforeRotation << 1) + (kBeforeRotation >> 63));
 }
 
 TEST(MessageLayouts, HaveZeroForUnknown) {

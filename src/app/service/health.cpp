@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "messages/status_t.hpp"
+
 namespace darkling {
 
 namespace {
@@ -36,6 +38,18 @@ constexpr std::array kReasons = std::to_array<NamedReason>({
 // So many periods without a frame, or so long at least, is a camera that is gone.
 constexpr int kSilentPeriods = 5;
 constexpr Duration kLeastSilence = std::chrono::milliseconds(500);
+
+static_assert(status_t::STATE_INIT == static_cast<int>(ServiceState::kInit));
+static_assert(status_t::STATE_TRACKING == static_cast<int>(ServiceState::kTracking));
+static_assert(status_t::STATE_DEGRADED == static_cast<int>(ServiceState::kDegraded));
+static_assert(status_t::STATE_LOST == static_cast<int>(ServiceState::kLost));
+static_assert(status_t::STATE_NO_CAMERA == static_cast<int>(ServiceState::kNoCamera));
+static_assert(status_t::STATE_FAULT == static_cast<int>(ServiceState::kFault));
+static_assert(status_t::REASON_NO_FRAMES == static_cast<int>(kReasonNoFrames));
+static_assert(status_t::REASON_LATE == static_cast<int>(kReasonLate));
+static_assert(status_t::REASON_CLOCK_STEPPED == static_cast<int>(kReasonClockStepped));
+static_assert(status_t::REASON_NOT_PUBLISHED == static_cast<int>(kReasonNotPublished));
+static_assert(status_t::REASON_RECORDING_FAILED == static_cast<int>(kReasonRecordingFailed));
 
 }  // namespace
 

@@ -27,6 +27,7 @@ OutputThread::OutputThread(const Links& links, const PipelineFacts& facts,
     : links_(links),
       facts_(facts),
       started_at_(read_monotonic_clock()),
+      has_bot_core_pose_(config.bot_core_pose),
       reset_counter_(facts.first_reset_counter),
       publisher_(config.lcm_url, config.channel_prefix),
       health_(started_at_, facts.period),
@@ -66,6 +67,7 @@ void OutputThread::publish(TrackedFrame& tracked) {
   messages_.fill(estimate, wall_clock_.update());
   publisher_.publish(kUpdateChannel, messages_.update());
   publisher_.publish(kPoseChannel, messages_.pose());
+  if (has_bot_core_pose_) publisher_.publish(kBotCorePoseChannel, messages_.bot_core_pose());
   const MonotonicTime now = read_monotonic_clock();
   const Duration late = now.time_since_epoch() - estimate.stamp.time_since_epoch();
   latency_.add(late);

@@ -67,6 +67,7 @@ class OutputThread {
   Links links_;
   PipelineFacts facts_;
   MonotonicTime started_at_;
+  bool has_bot_core_pose_;
   std::atomic<int> reset_counter_;
   std::atomic<bool> is_zeroing_wanted_ = false;
   std::atomic<bool> is_stopping_ = false;
