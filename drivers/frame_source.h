@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/result.h"
 #include "base/stereo_frame.h"
@@ -84,8 +86,9 @@ struct SourceStats {
   // Of the delivered: stamps that repeat or go back. Tracking goes by sequence and does not mind.
   std::int64_t stamps_not_increasing = 0;
   // Not in any of the above, because the device never handed them out: gaps in its own numbers.
+  // Of two devices, frames of either; such a frame's partner makes its pair an unpaired one.
   std::int64_t dropped_by_device = 0;
-  std::int64_t device_errors = 0;  // buffers that the device marked as bad
+  std::int64_t device_errors = 0;  // buffers that the device marked as bad or filled too little
 };
 
 // Where a camera's stamps come from, best last.
@@ -95,6 +98,7 @@ enum class StampSource { kUnknown = 0, kArrival, kEndOfFrame, kStartOfExposure }
 struct CameraState {
   double exposure_ms = -1.0;  // -1: not known
   double gain = -1.0;         // in the device's own units; -1: not known
+  double rate_hz = -1.0;      // frames a second; -1: not known
   StampSource stamp_source = StampSource::kUnknown;
   Duration stamp_uncertainty = Duration::zero();  // 0: not known
   Duration last_skew = Duration::zero();          // right minus left of the last pair
@@ -112,6 +116,9 @@ class FrameSource {
   virtual WaitResult wait_next(Duration timeout) = 0;
   // Releases what start() claimed. @pre no lease is held.
   virtual void stop() = 0;
+  // What is not as asked for, but can be lived with, a sentence each; after kDeviceLost, why as
+  // well. Thread: the one that starts.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
   // Thread: any, while frames are waited for.
   [[nodiscard]] virtual SourceStats stats() const = 0;
   [[nodiscard]] virtual CameraState camera_state() const { return {}; }

@@ -33,6 +33,14 @@ class Se3 {
   Se3(const Eigen::Quaterniond& q, const Vector3& t) : q_(q.normalized()), t_(t) {}
   // @pre R is orthonormal with determinant +1, to within rounding.
   Se3(const Matrix3& R, const Vector3& t) : Se3(Eigen::Quaterniond(R), t) {}
+  // Both as they are, to the bit: normalising a unit quaternion again may move its last digit.
+  // @pre |q| = 1 to within rounding, as rotation() gave it.
+  [[nodiscard]] static Se3 from_unit(const Eigen::Quaterniond& q, const Vector3& t) {
+    Se3 T;
+    T.q_ = q;
+    T.t_ = t;
+    return T;
+  }
 
   [[nodiscard]] const Eigen::Quaterniond& rotation() const { return q_; }
   [[nodiscard]] Matrix3 R() const { return q_.toRotationMatrix(); }

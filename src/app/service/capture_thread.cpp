@@ -63,6 +63,7 @@ bool CaptureThread::open() {
   status.capture_heartbeat.expect_until(kOpening);
   const Result<void> started = links_.source.start();
   status.capture_heartbeat.beat();
+  status.is_first_opening = false;
   note(started ? "" : started.error().message);
   if (!started) return false;
   status.camera_openings.add();

@@ -61,9 +61,13 @@ void Health::observe(const Estimate& estimate, MonotonicTime now) {
   reasons_ |= estimate.reasons;
 }
 
-ServiceState Health::judge(MonotonicTime now, bool is_camera_open, bool are_threads_alive) {
+ServiceState Health::judge(MonotonicTime now, Camera camera, bool are_threads_alive) {
   if (!are_threads_alive) return ServiceState::kFault;
-  if (!is_camera_open || now - last_frame_at_ > silence_) {
+  if (camera == Camera::kOpening) {
+    last_frame_at_ = now;
+    return ServiceState::kInit;
+  }
+  if (camera == Camera::kAbsent || now - last_frame_at_ > silence_) {
     reasons_ |= kReasonNoFrames;
     return ServiceState::kNoCamera;
   }

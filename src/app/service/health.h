@@ -44,9 +44,9 @@ class Health {
   void observe(const Estimate& estimate, MonotonicTime now);
   void observe(std::uint32_t reasons) { reasons_ |= reasons; }
 
-  // @param is_camera_open     as the thread that captures says.
+  enum class Camera { kOpening, kOpen, kAbsent };
   // @param are_threads_alive  all heartbeats are fresh.
-  [[nodiscard]] ServiceState judge(MonotonicTime now, bool is_camera_open, bool are_threads_alive);
+  [[nodiscard]] ServiceState judge(MonotonicTime now, Camera camera, bool are_threads_alive);
 
   // Of all frames since the last call.
   [[nodiscard]] std::uint32_t take_reasons();

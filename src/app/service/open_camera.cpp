@@ -14,11 +14,10 @@ constexpr std::string_view kSynthetic = "synthetic:";
 // A scene is rendered once and then driven to and fro: no processor renders it at a camera's pace
 // and has time for anything else.
 Result<LiveCamera> open_scene(const Config& config) {
-  const auto spec =
-      parse_synthetic(std::string_view(config.camera.source).substr(kSynthetic.size()));
-  if (!spec) return tl::unexpected(spec.error());
+  const auto spec = parse_synthetic(config.camera.source);
+  if (!spec) return failure(ExitCode::kConfiguration, "key 'camera': " + spec.error().message);
   auto scene = SyntheticSource::create(*spec);
-  if (!scene) return tl::unexpected(scene.error());
+  if (!scene) return failure(ExitCode::kConfiguration, "key 'camera': " + scene.error().message);
   const StereoRig rig = (*scene)->rig();
   auto rehearsed = std::make_unique<RehearsedSource>(std::move(*scene), config.camera.rate_hz);
   return LiveCamera{.name = config.camera.source,

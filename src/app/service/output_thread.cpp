@@ -29,6 +29,7 @@ OutputThread::OutputThread(const Links& links, const PipelineFacts& facts,
       facts_(facts),
       started_at_(read_monotonic_clock()),
       watchdog_period_(watchdog_period),
+      reset_counter_(facts.first_reset_counter),
       publisher_(config.lcm_url, config.channel_prefix),
       health_(started_at_, facts.period),
       fed_at_(started_at_),
@@ -50,7 +51,7 @@ void OutputThread::serve() {
   for (bool is_last = false; !is_last;) {
     is_last = is_stopping_;
     static_cast<void>(links_.own.wait(is_last ? Duration::zero() : kWait));
-    while (const std::optional<TrackedFrame> tracked = links_.estimates.try_pop()) {
+    while (std::optional<TrackedFrame> tracked = links_.estimates.try_pop()) {
       publish(*tracked);
     }
     const MonotonicTime now = read_monotonic_clock();
@@ -59,8 +60,10 @@ void OutputThread::serve() {
   }
 }
 
-void OutputThread::publish(const TrackedFrame& tracked) {
-  const Estimate& estimate = tracked.estimate;
+void OutputThread::publish(TrackedFrame& tracked) {
+  Estimate& estimate = tracked.estimate;
+  estimate.reset_counter += facts_.first_reset_counter;
+  reset_counter_ = estimate.reset_counter;
   messages_.fill(estimate, wall_clock_.update());
   publisher_.publish(kUpdateChannel, messages_.update());
   publisher_.publish(kPoseChannel, messages_.pose());
@@ -78,15 +81,23 @@ void OutputThread::keep_alive(MonotonicTime now) {
   const PipelineStatus& pipeline = links_.status;
   const bool are_threads_alive =
       pipeline.capture_heartbeat.is_fresh(now) && pipeline.odometry_heartbeat.is_fresh(now);
-  const ServiceState before = state_;
-  state_ = health_.judge(now, pipeline.is_camera_open, are_threads_alive);
-  if (state_ != before) tell_state(now);
+  if (!pipeline.is_stopping) judge(now, are_threads_alive);
   publisher_.open_when_due(now);
   constexpr int kFeedsPerPeriod = 4;
   if (!are_threads_alive || !watchdog_period_) return;
   if (now - fed_at_ < *watchdog_period_ / kFeedsPerPeriod) return;
   feed_watchdog();
   fed_at_ = now;
+}
+
+void OutputThread::judge(MonotonicTime now, bool are_threads_alive) {
+  const PipelineStatus& pipeline = links_.status;
+  const ServiceState before = state_;
+  const Health::Camera camera = pipeline.is_camera_open     ? Health::Camera::kOpen
+                                : pipeline.is_first_opening ? Health::Camera::kOpening
+                                                            : Health::Camera::kAbsent;
+  state_ = health_.judge(now, camera, are_threads_alive);
+  if (state_ != before) tell_state(now);
 }
 
 void OutputThread::tell_state(MonotonicTime now) {
@@ -161,7 +172,7 @@ void OutputThread::publish_status(MonotonicTime now) {
   if (status_.wall_clock_steps > steps_before) health_.observe(kReasonClockStepped);
   if (status_.publish_failures > failures_before) health_.observe(kReasonNotPublished);
   status_.reasons = static_cast<std::int32_t>(health_.take_reasons());
-  status_.reset_counter = messages_.update().reset_counter;
+  status_.reset_counter = reset_counter_;
   status_.uptime_s = std::chrono::duration<double>(now - started_at_).count();
   const double seconds = std::chrono::duration<double>(now - status_at_).count();
   const std::int64_t pairs_in = pipeline.pairs_in.get();

@@ -27,9 +27,8 @@ struct PipelineFacts {
   std::int64_t arena_bytes = 0;
   int width_px = 0;
   int height_px = 0;
-  Duration period = {};  // between frames
-  // Resets of the pipelines before this one: they count on, a reload is one more.
-  int reset_counter = 0;
+  Duration period = {};         // between frames
+  int first_reset_counter = 0;  // resets count on from here
 };
 
 // Publishes every estimate when it comes, and twice a second how the service is, whatever else
@@ -50,13 +49,16 @@ class OutputThread {
   OutputThread(const OutputThread&) = delete;
   OutputThread& operator=(const OutputThread&) = delete;
 
+  // Of the last estimate that was published. Thread: any.
+  [[nodiscard]] int reset_counter() const { return reset_counter_; }
   // Counters begin anew at what they are now. Thread: any.
   void zero_counters() { is_zeroing_wanted_ = true; }
 
  private:
   void serve();
-  void publish(const TrackedFrame& tracked);
+  void publish(TrackedFrame& tracked);
   void keep_alive(MonotonicTime now);
+  void judge(MonotonicTime now, bool are_threads_alive);
   void tell_state(MonotonicTime now);
   void publish_status(MonotonicTime now);
   void fill_counts();
@@ -67,6 +69,7 @@ class OutputThread {
   MonotonicTime started_at_;
   std::optional<Duration> watchdog_period_;
   bool has_bot_core_pose_;
+  std::atomic<int> reset_counter_;
   std::atomic<bool> is_zeroing_wanted_ = false;
   std::atomic<bool> is_stopping_ = false;
 

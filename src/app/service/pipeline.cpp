@@ -26,7 +26,7 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(const Config& config) {
 Pipeline::Pipeline(const Config& config, LiveCamera camera, const KernelTable& kernels)
     : config_(config), camera_(std::move(camera)), kernels_(kernels) {}
 
-void Pipeline::start(std::optional<Duration> watchdog_period) {
+void Pipeline::start(std::optional<Duration> watchdog_period, int first_reset_counter) {
   const RectifiedRig& rig = odometry_->rig();
   const PipelineFacts facts{
       .camera = camera_.name,
@@ -36,6 +36,7 @@ void Pipeline::start(std::optional<Duration> watchdog_period) {
       .width_px = rig.width,
       .height_px = rig.height,
       .period = Duration(std::llround(1e9 / config_.camera.rate_hz)),
+      .first_reset_counter = first_reset_counter,
   };
   capture_ = std::make_unique<CaptureThread>(
       CaptureThread::Links{*camera_.source, pairs_, odometry_wake_, status_},
@@ -58,6 +59,7 @@ void Pipeline::start(std::optional<Duration> watchdog_period) {
 }
 
 Pipeline::~Pipeline() {
+  status_.is_stopping = true;
   commands_.reset();
   // The source stops only when it has all its pairs back, so the one who takes them goes later; and
   // the output goes last, but speaks of the capture thread.

@@ -4,13 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "app/service/refinement_thread.h"
 #include "app/service/capture_thread.h"
 #include "app/service/command_thread.h"
 #include "app/service/odometry_thread.h"
 #include "app/service/open_camera.h"
 #include "app/service/output_thread.h"
 #include "app/service/pipeline_status.h"
+#include "app/service/refinement_thread.h"
 #include "io/config.h"
 #include "vo/odometry.h"
 
@@ -29,7 +29,10 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   // Starts the threads. @pre once.
-  void start(std::optional<Duration> watchdog_period);
+  // @param first_reset_counter  0, or one more than of the pipeline that this one takes over from.
+  void start(std::optional<Duration> watchdog_period, int first_reset_counter);
+  // @pre start().
+  [[nodiscard]] int reset_counter() const { return output_->reset_counter(); }
   // A recording that stands in for a camera has come to its end, and all of it is published.
   [[nodiscard]] bool is_over() const;
 

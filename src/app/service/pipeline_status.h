@@ -22,9 +22,12 @@ class Count {
 
 // What the threads of the service know of each other. Everything counts since the pipeline started.
 struct PipelineStatus {
+  std::atomic<bool> is_stopping = false;  // from now on, silence means nothing
+
   // Of the thread that captures:
   Heartbeat capture_heartbeat;
   std::atomic<bool> is_camera_open = false;
+  std::atomic<bool> is_first_opening = true;  // nothing is known of the camera yet
   Count camera_openings;
   Count pairs_in;       // whole or not
   Count pairs_refused;  // the odometry had not taken what came before

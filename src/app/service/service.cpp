@@ -29,9 +29,10 @@ void reload(const ServiceOptions& options, std::optional<Duration> watchdog_peri
   notify_reloading();
   auto renewed = prepare(options);
   if (renewed) {
+    const int reset_counter = pipeline->reset_counter() + 1;  // the pose begins anew
     pipeline.reset();
     pipeline = std::move(*renewed);
-    pipeline->start(watchdog_period);
+    pipeline->start(watchdog_period, reset_counter);
     report_info("reload=done config=" + options.config_path);
   } else {
     report_error("reload=refused, the old configuration stays: " + renewed.error().message);
@@ -48,7 +49,7 @@ Result<int> run_service(const ServiceOptions& options) {
   auto prepared = prepare(options);
   if (!prepared) return tl::unexpected(prepared.error());
   std::unique_ptr<Pipeline> pipeline = std::move(*prepared);
-  pipeline->start(watchdog_period);
+  pipeline->start(watchdog_period, 0);
   notify_ready();
   report_info("service=started version=" DARKLING_VERSION);
   while (!is_stop_requested() && !pipeline->is_over()) {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/v4l2/capture_stamp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace darkling {
+
+namespace {
+
+constexpr std::int64_t kLastSecond = 1LL << 33;  // 272 years; nanoseconds still fit 64 bits
+constexpr Duration kFuture = std::chrono::seconds(1);
+constexpr double kLongestExposure_ms = 60'000.0;
+constexpr Duration kExposureStep = std::chrono::microseconds(100);  // V4L2's unit
+
+Duration half_of(double exposure_ms) {
+  return Duration{std::llround(std::clamp(exposure_ms, 0.0, kLongestExposure_ms) * 0.5e6)};
+}
+
+std::optional<FrameTime> monotonic_stamp(const v4l2_buffer& buffer, FrameTime arrival) {
+  if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
+    return std::nullopt;
+  }
+  const std::int64_t seconds = buffer.timestamp.tv_sec;
+  const std::int64_t microseconds = buffer.timestamp.tv_usec;
+  if (seconds < 0 || seconds > kLastSecond || microseconds < 0 || microseconds >= 1'000'000) {
+    return std::nullopt;
+  }
+  const FrameTime stamp = frame_time_from_ns(seconds * 1'000'000'000 + microseconds * 1000);
+  if (stamp == FrameTime{} || stamp > arrival + kFuture) return std::nullopt;
+  return stamp;
+}
+
+}  // namespace
+
+CaptureStamp stamp_capture(const v4l2_buffer& buffer, MonotonicTime arrival, double exposure_ms) {
+  const FrameTime arrived = frame_time_from_ns(to_ns(arrival));
+  const Duration half = half_of(exposure_ms);
+  const auto stamp = monotonic_stamp(buffer, arrived);
+  if (!stamp) return {.middle = arrived - half, .source = StampSource::kArrival};
+  const bool is_start =
+      (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  if (is_start) return {.middle = *stamp + half, .source = StampSource::kStartOfExposure};
+  return {.middle = *stamp - half, .source = StampSource::kEndOfFrame};
+}
+
+Duration stamp_uncertainty(StampSource source, double exposure_ms, bool is_automatic,
+                           Duration period) {
+  switch (source) {
+    case StampSource::kStartOfExposure:
+      if (exposure_ms < 0.0) return period / 2;
+      return is_automatic ? std::max(half_of(exposure_ms), kExposureStep / 2) : kExposureStep / 2;
+    case StampSource::kEndOfFrame:
+      return period;  // the readout takes at most that long
+    case StampSource::kArrival:
+    case StampSource::kUnknown:
+      break;
+  }
+  return Duration::zero();
+}
+
+}  // namespace darkling
