@@ -64,7 +64,7 @@ enum class WaitStatus {
 
 enum class FrameFault {
   kNone = 0,
-  kUnreadable,  // file absent, truncated or corrupt
+  kUnreadable,  // file absent, truncated or corrupt; buffer marked bad or half full
   kWrongSize,   // not the size the calibration is for, or the eyes differ
   kUnpaired,    // one eye without the other
 };

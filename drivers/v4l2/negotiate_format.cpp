@@ -17,9 +17,9 @@ namespace {
 
 // No device has as many formats or sizes; one that never ends its list is not followed for ever.
 constexpr std::uint32_t kMaxListed = 64;
-// Beyond any camera's; keeps what a device says from overflowing what we compute.
-constexpr std::uint32_t kMaxStride_bytes = 1U << 20;
-constexpr int kMaxSide_px = 16384;
+// Beyond any camera's; their product fits 32 bits, so what a device says overflows nothing.
+constexpr std::uint32_t kMaxStride_bytes = 1U << 17;
+constexpr int kMaxSide_px = 8192;
 
 std::string extent_text(ImageExtent extent) {
   return std::to_string(extent.width) + "x" + std::to_string(extent.height);

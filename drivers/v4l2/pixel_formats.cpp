@@ -148,10 +148,9 @@ std::ptrdiff_t row_bytes(PixelFormat format, int width_px) {
     case PixelFormat::kY10:
     case PixelFormat::kY12:
     case PixelFormat::kY16:
-      return 2 * width;
     case PixelFormat::kYuyv:
     case PixelFormat::kUyvy:
-      return (width + 1) / 2 * 4;  // two pixels share their colour
+      return 2 * width;
     case PixelFormat::kY10P:
       return (width * 5 + 3) / 4;
     default:

@@ -12,9 +12,8 @@ namespace darkling {
 namespace {
 
 // A skew of half a period or more could pair a frame with the one before its own.
-Duration pairing_skew(const CameraConfig& config) {
-  const double half_period_ms = 500.0 / config.rate_hz;
-  return Duration{std::llround(std::min(config.max_skew_ms, half_period_ms) * 1e6)};
+Duration pairing_skew(double max_skew_ms, double rate_hz) {
+  return Duration{std::llround(std::min(max_skew_ms, 500.0 / rate_hz) * 1e6)};
 }
 
 Result<void> check_settings(const CameraConfig& config, std::size_t devices, ImageExtent eye) {
@@ -98,7 +97,9 @@ Result<void> V4l2Source::open_devices() {
 }
 
 void V4l2Source::claim_slots() {
+  double rate_hz = config_.rate_hz;  // the fastest that a device may have
   for (std::size_t i = 0; i < paths_.size(); ++i) {
+    rate_hz = std::max(rate_hz, devices_[i]->state().rate_hz);
     const ImageFormat& format = devices_[i]->format();
     if (is_grey_in_place(format.format)) continue;
     const ImageExtent grey = grey_extent(format.format, format.extent);
@@ -106,7 +107,7 @@ void V4l2Source::claim_slots() {
       slot.copies[i].resize(static_cast<std::size_t>(grey.width) * grey.height);
     }
   }
-  pairing_.emplace(pairing_skew(config_));
+  pairing_.emplace(pairing_skew(config_.max_skew_ms, rate_hz));
 }
 
 void V4l2Source::stop() {

@@ -89,7 +89,7 @@ TEST(PixelFormats, SaysHowManyBytesARowHolds) {
   EXPECT_EQ(row_bytes(PixelFormat::kY10P, 8), 10);
   EXPECT_EQ(row_bytes(PixelFormat::kY10P, 5), 7);
   EXPECT_EQ(row_bytes(PixelFormat::kYuyv, 8), 16);
-  EXPECT_EQ(row_bytes(PixelFormat::kUyvy, 7), 16);
+  EXPECT_EQ(row_bytes(PixelFormat::kUyvy, 7), 14);
 }
 
 TEST(PixelFormats, DoesNotAskForPaddingBehindTheLastRow) {

@@ -189,6 +189,19 @@ TEST_F(V4l2SourceTest, TakesLeasesBackFromAnotherThread) {
   EXPECT_EQ(source_->stats().delivered, kPairs);
 }
 
+// 20 Hz and a phase of 26 ms: the frame before its own is 24 ms away, within the tolerance.
+TEST_F(V4l2SourceTest, NeverPairsAcrossHalfAPeriod) {
+  config_.max_skew_ms = 100.0;
+  right_.phase = milliseconds(26);
+  start();
+  for (int k = 0; k < 20; ++k) {
+    const WaitResult result = next();
+    if (result.status != WaitStatus::kFrame) continue;
+    EXPECT_LE(std::chrono::abs(source_->camera_state().last_skew), milliseconds(25));
+  }
+  EXPECT_GT(source_->stats().delivered, 17);
+}
+
 TEST_F(V4l2SourceTest, SaysWhatIsNotAsAsked) {
   config_.rate_hz = 30.0;
   left_.shortest_period = milliseconds(50);

@@ -17,6 +17,12 @@ constexpr Duration kOpening = std::chrono::seconds(10);  // a USB camera may tak
 constexpr Duration kFirstBackOff = std::chrono::milliseconds(500);
 constexpr Duration kLastBackOff = std::chrono::seconds(5);
 
+std::string describe_loss(const FrameSource& source) {
+  std::string text = "the camera went away";
+  for (const std::string& remark : source.remarks()) text += "; " + remark;
+  return text;
+}
+
 }  // namespace
 
 CaptureThread::CaptureThread(const Links& links, int realtime_priority)
@@ -68,6 +74,7 @@ bool CaptureThread::open() {
   if (!started) return false;
   status.camera_openings.add();
   status.is_camera_open = true;
+  for (const std::string& remark : links_.source.remarks()) report_info("camera: " + remark);
   return true;
 }
 
@@ -93,7 +100,7 @@ void CaptureThread::capture() {
       status.is_source_over = true;
       return;
     }
-    if (next.status == WaitStatus::kDeviceLost) return note("the camera went away");
+    if (next.status == WaitStatus::kDeviceLost) return note(describe_loss(links_.source));
     if (next.status != WaitStatus::kFrame && next.status != WaitStatus::kBadFrame) continue;
     status.pairs_in.add();
     status.pairs_in_flight.add();

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/service/open_camera.h"
 
+#include <filesystem>
+
+#include "drivers/framelog/framelog_source.h"
+#include "drivers/framelog/frame_log.h"
 #include "drivers/live/paced_source.h"
 #include "drivers/live/rehearsed_source.h"
 #include "drivers/synthetic/synthetic_source.h"
+#include "drivers/v4l2/v4l2_source.h"
+#include "io/calibration.h"
 
 namespace darkling {
 
 namespace {
 
 constexpr std::string_view kSynthetic = "synthetic:";
+constexpr std::string_view kV4l2 = "v4l2:";
+constexpr std::string_view kFrameLog = ".lcmlog";
 
 // A scene is rendered once and then driven to and fro: no processor renders it at a camera's pace
 // and has time for anything else.
@@ -25,6 +33,34 @@ Result<LiveCamera> open_scene(const Config& config) {
                     .rig = rig};
 }
 
+Result<StereoRig> load_rig(const Config& config) {
+  const std::string& path = config.service.calibration;
+  if (path.empty()) {
+    return failure(ExitCode::kConfiguration,
+                   "key 'calibration' is empty: cameras need one, name its file or folder");
+  }
+  return std::filesystem::is_directory(path) ? load_euroc_calibration(path)
+                                             : load_kalibr_calibration(path);
+}
+
+Result<LiveCamera> open_v4l2(const Config& config) {
+  const auto rig = load_rig(config);
+  if (!rig) return tl::unexpected(rig.error());
+  auto source = V4l2Source::create(config.camera, {rig->left.width, rig->left.height});
+  if (!source) return failure(ExitCode::kConfiguration, source.error().message);
+  return LiveCamera{.name = config.camera.source, .source = std::move(*source), .rig = *rig};
+}
+
+Result<LiveCamera> open_log(const Config& config) {
+  auto log = open_frame_log(config.camera.source);
+  if (!log) return tl::unexpected(log.error());
+  const StereoRig rig = log->rig;
+  auto source = std::make_unique<FramelogSource>(std::move(log->events), std::move(log->rows));
+  return LiveCamera{.name = config.camera.source,
+                    .source = std::make_unique<PacedSource>(std::move(source)),
+                    .rig = rig};
+}
+
 }  // namespace
 
 Result<LiveCamera> open_camera(const Config& config) {
@@ -35,6 +71,8 @@ Result<LiveCamera> open_camera(const Config& config) {
                    "--set camera=v4l2:/dev/video0,/dev/video1 or --set camera=synthetic:mine");
   }
   if (source.starts_with(kSynthetic)) return open_scene(config);
+  if (source.starts_with(kV4l2)) return open_v4l2(config);
+  if (source.ends_with(kFrameLog)) return open_log(config);
   return failure(ExitCode::kConfiguration,
                  "key 'camera': found '" + source +
                      "', allowed is v4l2:DEVICE[,DEVICE], libcamera:ID,ID, synthetic:SCENE or a "

@@ -97,7 +97,10 @@ void OutputThread::judge(MonotonicTime now, bool are_threads_alive) {
                                 : pipeline.is_first_opening ? Health::Camera::kOpening
                                                             : Health::Camera::kAbsent;
   state_ = health_.judge(now, camera, are_threads_alive);
-  if (state_ != before) tell_state(now);
+  if (state_ == before) return;
+  tell_state(now);
+  const bool is_trouble = state_ == ServiceState::kLost || state_ == ServiceState::kFault;
+  if (is_trouble && links_.recorder != nullptr) links_.recorder->write_black_box();
 }
 
 void OutputThread::tell_state(MonotonicTime now) {
@@ -158,6 +161,18 @@ void OutputThread::fill_camera() {
   status_.stamp_uncertainty_ms = to_ms(camera.stamp_uncertainty);
 }
 
+void OutputThread::fill_recording() {
+  const Recorder* recorder = links_.recorder;
+  if (recorder == nullptr) return;
+  status_.is_recording = recorder->is_recording() ? 1 : 0;
+  status_.recorded_frames = recorder->recorded();
+  status_.record_drops = recorder->drops();
+  const std::int64_t not_recorded = recorder->drops() + recorder->failures();
+  if (std::exchange(not_recorded_before_, not_recorded) != not_recorded) {
+    health_.observe(kReasonRecordingFailed);
+  }
+}
+
 void OutputThread::publish_status(MonotonicTime now) {
   const PipelineStatus& pipeline = links_.status;
   const Duration epoch_offset = wall_clock_.update();
@@ -171,6 +186,7 @@ void OutputThread::publish_status(MonotonicTime now) {
   fill_counts();
   if (status_.wall_clock_steps > steps_before) health_.observe(kReasonClockStepped);
   if (status_.publish_failures > failures_before) health_.observe(kReasonNotPublished);
+  fill_recording();
   status_.reasons = static_cast<std::int32_t>(health_.take_reasons());
   status_.reset_counter = reset_counter_;
   status_.uptime_s = std::chrono::duration<double>(now - started_at_).count();

@@ -12,6 +12,7 @@
 #include "app/service/odometry_thread.h"
 #include "app/service/pipeline_status.h"
 #include "app/service/publisher.h"
+#include "app/service/recorder.h"
 #include "app/service/wall_clock.h"
 #include "io/config.h"
 #include "io/messages.h"
@@ -41,6 +42,7 @@ class OutputThread {
     PipelineStatus& status;
     const CaptureThread& capture;
     const FrameSource& source;
+    Recorder* recorder;  // may be null
   };
   OutputThread(const Links& links, const PipelineFacts& facts, const ServiceConfig& config,
                std::optional<Duration> watchdog_period);
@@ -63,6 +65,7 @@ class OutputThread {
   void publish_status(MonotonicTime now);
   void fill_counts();
   void fill_camera();
+  void fill_recording();
 
   Links links_;
   PipelineFacts facts_;
@@ -89,6 +92,7 @@ class OutputThread {
   std::int64_t pairs_in_before_ = 0;  // at the last status
   std::int64_t estimates_before_ = 0;
   std::int64_t skipped_before_ = 0;
+  std::int64_t not_recorded_before_ = 0;
   std::string told_error_;  // of the camera
   std::thread thread_;      // last: it uses all of the above
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/service/journal.h"
 #include "messages/command_t.hpp"
 #include "platform/clocks.h"
 #include "platform/cpu_features.h"
@@ -38,23 +39,22 @@ void Pipeline::start(std::optional<Duration> watchdog_period, int first_reset_co
       .period = Duration(std::llround(1e9 / config_.camera.rate_hz)),
       .first_reset_counter = first_reset_counter,
   };
+  if (!config_.service.record_to.empty()) {
+    recorder_ = std::make_unique<Recorder>(config_, camera_.rig, camera_.name);
+  }
   capture_ = std::make_unique<CaptureThread>(
       CaptureThread::Links{*camera_.source, pairs_, odometry_wake_, status_},
       config_.service.realtime_priority);
   tracker_ = std::make_unique<OdometryThread>(
       OdometryThread::Links{*odometry_, pairs_, wishes_, odometry_wake_, estimates_, output_wake_,
-                            status_, nullptr},
+                            status_, recorder_.get()},
       config_.service.cpu);
   output_ = std::make_unique<OutputThread>(
-      OutputThread::Links{estimates_, output_wake_, status_, *capture_, *camera_.source}, facts,
-      config_.service, watchdog_period);
+      OutputThread::Links{estimates_, output_wake_, status_, *capture_, *camera_.source,
+                          recorder_.get()},
+      facts, config_.service, watchdog_period);
   commands_ = std::make_unique<CommandThread>(
-      CommandThread::Links{wishes_,
-                           [this](std::int8_t command) {
-                             if (command == command_t::COMMAND_ZERO_COUNTERS) {
-                               output_->zero_counters();
-                             }
-                           }},
+      CommandThread::Links{wishes_, [this](std::int8_t command) { obey(command); }},
       config_.service.lcm_url, config_.service.channel_prefix);
 }
 
@@ -65,8 +65,27 @@ Pipeline::~Pipeline() {
   // the output goes last, but speaks of the capture thread.
   if (capture_ != nullptr) capture_->stop();
   tracker_.reset();
+  recorder_.reset();
   output_.reset();
   capture_.reset();
+}
+
+// What is not for the odometry. Thread: that of the commands.
+void Pipeline::obey(std::int8_t command) {
+  if (command == command_t::COMMAND_ZERO_COUNTERS) return output_->zero_counters();
+  if (recorder_ == nullptr) {
+    return report_warning("command=" + std::to_string(command) + " ignored: record_to is empty");
+  }
+  switch (command) {
+    case command_t::COMMAND_START_RECORDING:
+      return recorder_->start_recording();
+    case command_t::COMMAND_STOP_RECORDING:
+      return recorder_->stop_recording();
+    case command_t::COMMAND_WRITE_BLACK_BOX:
+      return recorder_->write_black_box();
+    default:
+      return;
+  }
 }
 
 bool Pipeline::is_over() const {

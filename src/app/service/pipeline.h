@@ -10,6 +10,7 @@
 #include "app/service/open_camera.h"
 #include "app/service/output_thread.h"
 #include "app/service/pipeline_status.h"
+#include "app/service/recorder.h"
 #include "app/service/refinement_thread.h"
 #include "io/config.h"
 #include "vo/odometry.h"
@@ -38,6 +39,7 @@ class Pipeline {
 
  private:
   Pipeline(const Config& config, LiveCamera camera, const KernelTable& kernels);
+  void obey(std::int8_t command);
 
   Config config_;
   LiveCamera camera_;
@@ -50,6 +52,7 @@ class Pipeline {
   WakeUp output_wake_;
   RefinementThread refinement_;
   std::unique_ptr<Odometry> odometry_;
+  std::unique_ptr<Recorder> recorder_;  // null: record_to is empty
   // In the order in which they start; they stop the other way round, but for the output, which has
   // the last word.
   std::unique_ptr<CaptureThread> capture_;
