@@ -11,7 +11,8 @@ install_service() {
   cp -a "$host/stage/." /
   mkdir -p "$assets" "$results" /etc/darkling
   cp -a "$host/assets/." "$assets"
-  cp -a "$assets/mine" "$assets/wide" /etc/darkling
+  cp -a "$assets/mine/mav0" /etc/darkling/mine
+  cp -a "$assets/wide/mav0" /etc/darkling/wide
   ldconfig
   systemd-sysusers
   udevadm control --reload
