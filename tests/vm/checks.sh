@@ -53,10 +53,10 @@ configure() {
   {
     if [[ "$source" == vivid ]]; then
       echo "camera: \"v4l2:$vivid_left,$vivid_right\""
-      echo "calibration: /etc/darkling/wide"
+      echo "calibration: /etc/darkling/wide/mav0"
     else
       echo "camera: \"v4l2:$loopback_left,$loopback_right\""
-      echo "calibration: /etc/darkling/mine"
+      echo "calibration: /etc/darkling/mine/mav0"
     fi
     # Nothing keeps the test driver's two in step, and emulation delays what arrives.
     echo "max_skew_ms: 100"

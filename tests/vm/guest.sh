@@ -11,8 +11,7 @@ install_service() {
   cp -a "$host/stage/." /
   mkdir -p "$assets" "$results" /etc/darkling
   cp -a "$host/assets/." "$assets"
-  cp -a "$assets/mine/mav0" /etc/darkling/mine
-  cp -a "$assets/wide/mav0" /etc/darkling/wide
+  cp -a "$assets/mine" "$assets/wide" /etc/darkling
   ldconfig
   systemd-sysusers
   udevadm control --reload
@@ -44,7 +43,8 @@ for path in "$host"/scenarios/*.sh; do
     echo "FAIL $scenario: it ends within $scenario_limit_s s"
   fi
   systemctl stop darklingd
-  cp -a "$scratch" "$results/$scenario"
+  mkdir -p "$results/$scenario"
+  cp -a "$scratch/." "$results/$scenario"
   echo "     $scenario took $(($(date +%s) - scenario_start)) s"
 done
 echo "end of all scenarios"
