@@ -2,8 +2,8 @@
 // feed_loopback LEFT RIGHT WIDTHxHEIGHT RATE_HZ FILE [LOG]
 //
 // Plays the frames of dump_frames into two v4l2loopback devices until it is ended, forth and back
-// and forth, so that the camera never jumps. LOG gets a line for every pair: its stamp by
-// CLOCK_MONOTONIC in ns, and which of the recording's pairs it was.
+// and forth, so that the camera never jumps. LOG gets a line for every pair: when it was
+// shown by CLOCK_MONOTONIC in ns, and which of the recording's pairs it was.
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -18,7 +18,6 @@ namespace darkling::test {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-constexpr std::int64_t kNsPerMicrosecond = 1'000;
 
 std::int64_t now_ns() {
   timespec time = {};
@@ -61,10 +60,9 @@ void feed(const std::vector<std::string>& words) {
   for (std::size_t step = 0;; ++step, due_ns += period_ns) {
     sleep_until(due_ns);
     const std::size_t index = forth_and_back(step, count);
-    const std::int64_t stamp_us = due_ns / kNsPerMicrosecond;
-    left.show({pixels + 2 * index * size, size}, stamp_us);
-    right.show({pixels + (2 * index + 1) * size, size}, stamp_us);
-    if (log) log << stamp_us * kNsPerMicrosecond << ' ' << index << std::endl;
+    if (log) log << now_ns() << ' ' << index << std::endl;
+    left.show({pixels + 2 * index * size, size});
+    right.show({pixels + (2 * index + 1) * size, size});
   }
 }
 

@@ -43,7 +43,8 @@ for path in "$host"/scenarios/*.sh; do
     echo "FAIL $scenario: it ends within $scenario_limit_s s"
   fi
   systemctl stop darklingd
-  cp -a "$scratch" "$results/$scenario"
+  mkdir -p "$results/$scenario"
+  cp -a "$scratch/." "$results/$scenario"
   echo "     $scenario took $(($(date +%s) - scenario_start)) s"
 done
 echo "end of all scenarios"

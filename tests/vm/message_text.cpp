@@ -87,6 +87,7 @@ Fields fields_of(const status_t& status) {
           {"latency_p50_ms", text(status.latency_p50_ms)},
           {"latency_max_ms", text(status.latency_max_ms)},
           {"skew_ms", text(status.skew_ms)},
+          {"stamp_source", text(static_cast<int>(status.stamp_source))},
           {"arena_bytes", text(status.arena_bytes)},
           {"rss_bytes", text(status.rss_bytes)},
           {"heap_calls", text(status.heap_calls)},

@@ -40,7 +40,7 @@ make_share() {
   mkdir -p "$share/scenarios" "$share/assets"
   cp tests/vm/{guest,checks}.sh "$share"
   for name in "${scenarios[@]}"; do cp tests/vm/scenarios/"$name"*.sh "$share/scenarios"; done
-  DESTDIR="$PWD/$share/stage" cmake --install "$build" --strip --prefix /usr >"$vm/install.log"
+  DESTDIR="$PWD/$share/stage" cmake --install "$build" --component service --strip --prefix /usr >"$vm/install.log"
   make_assets "$share/assets"
 }
 
@@ -76,7 +76,7 @@ if [[ $# -eq 0 ]]; then scenarios=(""); fi
 deploy/install-deps.sh vm || { echo "skip vm: packages cannot be installed here"; exit 77; }
 command -v qemu-system-x86_64 >/dev/null || { echo "skip vm: there is no qemu-system-x86_64"; exit 77; }
 cmake --preset release -DDARKLING_TESTS=ON -DDARKLING_DESK_TOOL=ON >/dev/null
-cmake --build --preset release
+cmake --build --preset release --target darkling darklingd dump_frames feed_loopback hear
 mkdir -p "$vm"
 status=0
 tests/vm/build_image.sh "$vm/image" || status=$?
