@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "base/time.h"
 
 namespace darkling {
@@ -10,6 +12,9 @@ namespace darkling {
 
 // CLOCK_REALTIME. May step; only for labels.
 [[nodiscard]] EpochTime read_epoch_clock();
+
+// Whether the system says that CLOCK_REALTIME follows a reference; nothing where it does not tell.
+[[nodiscard]] std::optional<bool> is_epoch_clock_synchronised();
 
 // What the calling thread has had of the processor: does not grow while others have it. Costs a
 // call of the kernel: 0.5 us on a virtual machine where the other two cost 0.02.

@@ -25,29 +25,6 @@ std::string extent_text(ImageExtent extent) {
   return std::to_string(extent.width) + "x" + std::to_string(extent.height);
 }
 
-Result<void> check_captures(const DeviceDescriptor& device) {
-  v4l2_capability capability = {};
-  if (const int error = device.ioctl(VIDIOC_QUERYCAP, &capability); error < 0) {
-    return tl::unexpected<Error>(device_error(device.path(), "VIDIOC_QUERYCAP", error));
-  }
-  const bool is_of_node = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0;
-  const std::uint32_t can = is_of_node ? capability.device_caps : capability.capabilities;
-  if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0) {
-    const bool is_planar = (can & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0;
-    return failure(ExitCode::kDeviceUnavailable,
-                   device.path() + (is_planar ? ": captures only through the multi-planar "
-                                                "interface, which this driver does not speak; "
-                                                "use libcamera for this camera"
-                                              : ": is no video capture device (cameras often have "
-                                                "a second node for metadata); name another node"));
-  }
-  if ((can & V4L2_CAP_STREAMING) == 0) {
-    return failure(ExitCode::kDeviceUnavailable,
-                   device.path() + ": does not stream into buffers, which this driver needs");
-  }
-  return {};
-}
-
 std::vector<std::uint32_t> list_formats(const DeviceDescriptor& device) {
   std::vector<std::uint32_t> fourccs;
   for (std::uint32_t index = 0; index < kMaxListed; ++index) {
@@ -138,6 +115,29 @@ Error nothing_fits(const DeviceDescriptor& device, const CameraConfig& config, I
 }
 
 }  // namespace
+
+Result<void> check_captures(const DeviceDescriptor& device) {
+  v4l2_capability capability = {};
+  if (const int error = device.ioctl(VIDIOC_QUERYCAP, &capability); error < 0) {
+    return tl::unexpected<Error>(device_error(device.path(), "VIDIOC_QUERYCAP", error));
+  }
+  const bool is_of_node = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0;
+  const std::uint32_t can = is_of_node ? capability.device_caps : capability.capabilities;
+  if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0) {
+    const bool is_planar = (can & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0;
+    return failure(ExitCode::kDeviceUnavailable,
+                   device.path() + (is_planar ? ": captures only through the multi-planar "
+                                                "interface, which this driver does not speak; "
+                                                "use libcamera for this camera"
+                                              : ": is no video capture device (cameras often have "
+                                                "a second node for metadata); name another node"));
+  }
+  if ((can & V4L2_CAP_STREAMING) == 0) {
+    return failure(ExitCode::kDeviceUnavailable,
+                   device.path() + ": does not stream into buffers, which this driver needs");
+  }
+  return {};
+}
 
 Result<ImageFormat> negotiate_format(const DeviceDescriptor& device, const CameraConfig& config,
                                      ImageExtent eye) {

@@ -20,6 +20,9 @@ struct ImageFormat {
   std::size_t bytes = 0;  // that a buffer must have filled
 };
 
+// @return kDeviceUnavailable when the node does not capture video into buffers.
+[[nodiscard]] Result<void> check_captures(const DeviceDescriptor& device);
+
 // Sets the device to the first of its formats that is allowed and gives eyes of size `eye`.
 // @return kDeviceUnavailable when the node does not capture video, another program has it, or no
 //   format fits; the message then lists what the device offers.

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <ctime>
 
+#include <sys/timex.h>
+
 #include "base/check.h"
 
 namespace darkling {
@@ -37,6 +39,13 @@ bool sleep_until(MonotonicTime wake_at) {
   until.tv_sec = static_cast<time_t>(to_ns(wake_at) / kNsPerSecond);
   until.tv_nsec = static_cast<long>(to_ns(wake_at) % kNsPerSecond);
   return clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != EINTR;
+}
+
+std::optional<bool> is_epoch_clock_synchronised() {
+  timex state = {};  // modes = 0: only asks
+  const int result = adjtimex(&state);
+  if (result < 0) return std::nullopt;
+  return result != TIME_ERROR && (state.status & STA_UNSYNC) == 0;
 }
 
 }  // namespace darkling

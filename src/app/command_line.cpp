@@ -25,8 +25,8 @@ constexpr const char* kAbout =
 constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0 done   64 usage, or an output that cannot be written   65 input that makes no sense\n"
-    "  66 input absent or unreadable   70 our own fault   78 configuration or calibration\n"
-    "  130 interrupted; the outputs are whole up to there\n";
+    "  66 input absent or unreadable   69 no camera, or it is taken   70 our own fault\n"
+    "  78 configuration or calibration   130 interrupted; the outputs are whole up to there\n";
 
 struct Verb {
   const char* name;

@@ -102,7 +102,7 @@ Result<Camera> read_camera(const YamlSection& section, const EyeNames& names, Im
   return camera;
 }
 
-Result<Se3> read_T_right_left(const YamlSection& section) {
+Result<Se3> read_motion(const YamlSection& section) {
   const auto R = yaml_rotation(section, "R");
   if (!R) return tl::unexpected(R.error());
   const auto T = yaml_matrix(section, "T", 3, 1, "3x1 numbers, in m");
@@ -137,7 +137,7 @@ Result<StereoRig> load_opencv_calibration(const std::string& intrinsics_path,
   if (!left) return tl::unexpected(left.error());
   const auto right = read_camera(*intrinsics, kRightNames, *chosen);
   if (!right) return tl::unexpected(right.error());
-  const auto T_right_left = read_T_right_left(*extrinsics);
+  const auto T_right_left = read_motion(*extrinsics);
   if (!T_right_left) return tl::unexpected(T_right_left.error());
   StereoRig rig;
   rig.left = *left;

@@ -16,11 +16,22 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-void expect_refused(int status, const std::vector<std::string>& words, const std::string& part) {
+void expect_misused(const std::vector<std::string>& words, const std::string& part) {
+  const auto run = run_darkling(words);
+  EXPECT_EQ(run.status, 64) << run.out;
+  EXPECT_THAT(run.err, HasSubstr(part));
+  EXPECT_EQ(run.out, "");
+}
+
+// Wrong in one row, and every other is printed all the same.
+void expect_wrong(int status, const std::vector<std::string>& words, const std::string& row,
+                  const std::string& part) {
   const auto run = run_darkling(words);
   EXPECT_EQ(run.status, status) << run.out;
   EXPECT_THAT(run.err, HasSubstr(part));
-  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.out, AllOf(HasSubstr("  " + row + " wrong: "), HasSubstr(part)));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("  configuration "), HasSubstr("  memory "),
+                             HasSubstr("  recording ")));
 }
 
 // The bytes at the start of the table's rows: of buffers (they have a count), gaps and state; and
@@ -92,7 +103,7 @@ TEST(Check, ChecksTheCalibrationOfASource) {
   EXPECT_THAT(run.out, AllOf(HasSubstr("calibration    ok: " + kitti + "/calib.txt\n"),
                              HasSubstr("thumbnail 96 x ")));
   test::replace_in_file(kitti + "/calib.txt", "P1:", "Q1:");
-  expect_refused(78, {"check", kitti, "--width", "96"}, "calib.txt");
+  expect_wrong(78, {"check", kitti, "--width", "96"}, "calibration   ", "calib.txt");
 }
 
 // What a replay says it took is what the check said it would take.
@@ -112,24 +123,26 @@ TEST(Check, AgreesWithAReplay) {
 }
 
 TEST(Check, RefusesLimitsWithNameAndNumbers) {
-  expect_refused(78, {"check", "--size", "1400x1050"},
-                 "thumbnail width 1400 px is above kMaxWidth = 1280");
-  expect_refused(78, {"check", "--size", "320x20"}, "20 px is below kMinHeight = 24");
-  expect_refused(78, {"check", "synthetic:corridor,width=1400,height=1050", "--width", "0"},
-                 "thumbnail width 1400 px is above kMaxWidth = 1280");
+  expect_wrong(78, {"check", "--size", "1400x1050"}, "limits        ",
+               "thumbnail width 1400 px is above kMaxWidth = 1280");
+  expect_wrong(78, {"check", "--size", "320x20"}, "limits        ",
+               "20 px is below kMinHeight = 24");
+  expect_wrong(78, {"check", "synthetic:corridor,width=1400,height=1050", "--width", "0"},
+               "limits        ", "thumbnail width 1400 px is above kMaxWidth = 1280");
 }
 
 TEST(Check, RefusesABadConfigurationWithFileAndLine) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "rover.yaml", "# mine\nwidth_px: 20\n");
-  expect_refused(78, {"check", "--config", folder / "rover.yaml"}, "rover.yaml:2: key 'width_px'");
+  expect_wrong(78, {"check", "--config", folder / "rover.yaml"}, "configuration ",
+               "rover.yaml:2: key 'width_px'");
 }
 
 TEST(Check, RefusesWordsThatContradict) {
-  expect_refused(64, {"check", "--size", "640"}, "--size: found '640', WIDTHxHEIGHT is needed");
-  expect_refused(64, {"check", "--size", "640x480", "--width", "640"}, "neither a SOURCE nor");
-  expect_refused(64, {"check", "synthetic:mine", "--size", "640x480"}, "neither a SOURCE nor");
-  expect_refused(64, {"check", "--width", "0"}, "give a SOURCE");
+  expect_misused({"check", "--size", "640"}, "--size: found '640', WIDTHxHEIGHT is needed");
+  expect_misused({"check", "--size", "640x480", "--width", "640"}, "neither a SOURCE nor");
+  expect_misused({"check", "synthetic:mine", "--size", "640x480"}, "neither a SOURCE nor");
+  expect_misused({"check", "--width", "0"}, "give a SOURCE");
 }
 
 TEST(Check, TeachesAnExampleInItsHelp) {
