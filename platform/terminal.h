@@ -21,7 +21,8 @@ struct TerminalSize {
 [[nodiscard]] bool is_locale_utf8();
 
 // Standard output as a page that is drawn again and again: on the terminal's other screen, without
-// a cursor and without the echo of keys. All of that is undone at the end.
+// a cursor and without the echo of keys. What libraries say on standard error meanwhile would be
+// drawn over it, and is dropped where that is a terminal. All of that is undone at the end.
 // @pre standard output is a terminal. Thread: one.
 class TerminalScreen {
  public:
@@ -36,6 +37,7 @@ class TerminalScreen {
   [[nodiscard]] std::optional<char> take_key();
 
  private:
+  int stderr_fd_ = -1;                  // standard error as it was; -1: left alone
   struct Keyboard;                      // how it was before
   std::unique_ptr<Keyboard> keyboard_;  // none when standard input is no terminal
 };

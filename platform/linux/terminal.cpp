@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string>
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -66,11 +67,25 @@ TerminalScreen::TerminalScreen() {
     tcsetattr(STDIN_FILENO, TCSANOW, &silent);
     keyboard_ = std::move(keyboard);
   }
+  if (is_stderr_terminal()) {
+    std::fflush(stderr);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere >= 0) {
+      stderr_fd_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+      dup2(nowhere, STDERR_FILENO);
+      close(nowhere);
+    }
+  }
   write_out(kEnter);
 }
 
 TerminalScreen::~TerminalScreen() {
   write_out(kLeave);
+  if (stderr_fd_ >= 0) {
+    std::fflush(stderr);
+    dup2(stderr_fd_, STDERR_FILENO);
+    close(stderr_fd_);
+  }
   if (keyboard_ != nullptr) tcsetattr(STDIN_FILENO, TCSANOW, &keyboard_->before);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -86,7 +87,7 @@ TEST(TopLayout, FillsNoMoreThanATerminalOf80x24WhateverIsHeard) {
   extreme.take_status(encoded(command_t{}), kStart);
   const Heard good = heard_of(good_status(), good_pose());
   for (const Glyphs glyphs : {Glyphs::kAscii, Glyphs::kUnicode}) {
-    for (const Heard* heard : {&extreme, &good}) {
+    for (const Heard* heard : {&std::as_const(extreme), &good}) {
       for (const double seconds : {0.0, 5.0, 1e6}) {
         View view = view_after(seconds);
         view.glyphs = glyphs;
