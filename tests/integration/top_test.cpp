@@ -67,16 +67,15 @@ TEST(Top, SeesAServiceTrack) {
   EXPECT_EQ(strange.status, 69);
   EXPECT_THAT(strange.err, HasSubstr("--channel-prefix '" + network.channel_prefix + "'"));
 
-  // Where nobody watches a terminal, a line a second; a service that goes away is said to.
-  test::RunningProgram watcher(test::darkling_words(top_words(network, {})));
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  // Where standard output is no terminal, it gets a line a second.
+  const auto watched = run_darkling(top_words(network, {"--for", "4"}));
+  EXPECT_EQ(watched.status, 0) << watched.err;
+  EXPECT_THAT(watched.out, AllOf(HasSubstr(" quality "), Not(HasSubstr("\033"))));
+  EXPECT_GE(test::count_lines(watched.out), 3u);
+  EXPECT_LE(test::count_lines(watched.out), 5u);
+
   service.send_signal(SIGTERM);
   EXPECT_EQ(service.wait().status, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(4000));
-  watcher.send_signal(SIGTERM);
-  const auto watched = watcher.wait();
-  EXPECT_EQ(watched.status, 0) << watched.err;
-  EXPECT_THAT(watched.out, AllOf(HasSubstr(" quality "), HasSubstr("SILENT")));
 }
 
 TEST(Top, ExitsWith69WhereNobodyIs) {
