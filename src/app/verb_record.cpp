@@ -39,13 +39,11 @@ Result<int> run(const RecordWords& words) {
 }
 
 constexpr const char* kMore =
-    "Takes pairs from the camera of the configuration, as darklingd would, and writes them to OUT\n"
-    "without tracking: full images, the calibration, and the configuration in force. A pair that "
-    "was\n"
-    "lost or unusable is recorded as a gap. A running service has the camera for itself: stop it\n"
-    "first, or let it record (`record_to` of its configuration).\n\n"
-    "Without --for and --frames it goes on until Ctrl-C; whatever ends it, OUT is whole up to "
-    "there.\n"
+    "Takes pairs from the camera of the configuration, as darklingd would, and writes them to\n"
+    "OUT without tracking: full images, the calibration, and the configuration in force. A pair\n"
+    "that was lost or unusable is recorded as a gap. A running service has the camera for\n"
+    "itself: stop it first, or let it record (`record_to` of its configuration).\n\n"
+    "Without --for and --frames it goes on until Ctrl-C; whatever ends it, OUT is whole then.\n"
     "It ends by itself at record_limit_mb of the configuration, too. 640x480 at 20 Hz are 12 MB a\n"
     "second. Exits 69 when there is no camera, it is taken, or it goes away.\n\n"
     "Examples:\n"
