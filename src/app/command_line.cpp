@@ -20,13 +20,16 @@ namespace {
 constexpr const char* kAbout =
     "Stereo visual odometry: says from the frames of two cameras how they have moved, also in near "
     "darkness.\n"
-    "The verbs below run the odometry over recordings, make synthetic ones and measure errors.";
+    "The verbs below run the odometry over recordings, make synthetic ones, measure errors, "
+    "record\n"
+    "cameras and watch the service.";
 
 constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0 done   64 usage, or an output that cannot be written   65 input that makes no sense\n"
-    "  66 input absent or unreadable   69 no camera, or it is taken   70 our own fault\n"
-    "  78 configuration or calibration   130 interrupted; the outputs are whole up to there\n";
+    "  66 input absent or unreadable   69 no camera, or no service heard   70 our own fault\n"
+    "  78 configuration or calibration\n"
+    "  130 interrupted; the outputs are whole up to there\n";
 
 struct Verb {
   const char* name;
@@ -40,6 +43,8 @@ constexpr std::array kVerbs = std::to_array<Verb>({
     {"check", "Say what would be wrong before a start, and what memory it takes", declare_check},
     {"eval", "Compare an estimated trajectory with the true one", declare_eval},
     {"bench", "Measure kernels and stages on this machine", declare_bench},
+    {"record", "Write what a camera delivers to a frame log", declare_record},
+    {"top", "Show a running service, live", declare_top},
 });
 
 int report_error(const Error& error) {

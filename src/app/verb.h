@@ -21,6 +21,8 @@ using VerbAction = std::function<Result<int>()>;
 [[nodiscard]] VerbAction declare_render(CLI::App& command);
 [[nodiscard]] VerbAction declare_convert(CLI::App& command);
 [[nodiscard]] VerbAction declare_bench(CLI::App& command);
+[[nodiscard]] VerbAction declare_record(CLI::App& command);
+[[nodiscard]] VerbAction declare_top(CLI::App& command);
 
 // Ended by SIGINT or SIGTERM: what shells report for a program that SIGINT killed.
 inline constexpr int kInterruptedStatus = 130;

@@ -7,6 +7,7 @@
 #include <lcm/lcm.h>
 
 #include "app/service/understand_wish.h"
+#include "messages/channel_pattern.h"
 #include "messages/channels.h"
 #include "platform/clocks.h"
 #include "platform/realtime.h"
@@ -35,7 +36,7 @@ class CommandThread::Listener {
     lcm_.reset(lcm_create(thread.lcm_url_.c_str()));
     if (lcm_ == nullptr) return;
     const auto listen = [&](const char* channel, lcm_msg_handler_t handler) {
-      const std::string name = escape(thread.channel_prefix_) + channel;
+      const std::string name = escape_channel(thread.channel_prefix_) + channel;
       lcm_subscribe(lcm_.get(), name.c_str(), handler, &thread_);
     };
     listen(kCommandChannel, &Listener::on_command);
@@ -46,16 +47,6 @@ class CommandThread::Listener {
   bool listen() { return lcm_ != nullptr && lcm_handle_timeout(lcm_.get(), kWait_ms) >= 0; }
 
  private:
-  // LCM takes the names of channels that are listened to for regular expressions.
-  static std::string escape(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-      if (std::string_view("\\^$.|?*+()[]{}").find(c) != std::string_view::npos) escaped += '\\';
-      escaped += c;
-    }
-    return escaped;
-  }
-
   static void on_command(const lcm_recv_buf_t* received, const char*, void* user) {
     auto& thread = *static_cast<CommandThread*>(user);
     const auto command = understand_command(bytes_of(received));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -57,11 +58,31 @@ const char* name_of(ServiceState state) {
   return kStateNames[static_cast<std::size_t>(state)];
 }
 
+ServiceState state_from_message(std::int8_t state) {
+  if (state < 0 || state >= kServiceStateCount) return ServiceState::kUnknown;
+  return static_cast<ServiceState>(state);
+}
+
+std::vector<std::string> names_of_reasons(std::uint32_t reasons) {
+  std::vector<std::string> names;
+  for (const NamedReason& reason : kReasons) {
+    if ((reasons & reason.bit) != 0) names.emplace_back(reason.name);
+    reasons &= ~reason.bit;
+  }
+  for (std::uint32_t bit = 1; reasons != 0; bit <<= 1) {
+    if ((reasons & bit) == 0) continue;
+    char name[16];
+    std::snprintf(name, sizeof(name), "0x%x", bit);
+    names.emplace_back(name);
+    reasons &= ~bit;
+  }
+  return names;
+}
+
 std::string describe_reasons(std::uint32_t reasons) {
   std::string text;
-  for (const NamedReason& reason : kReasons) {
-    if ((reasons & reason.bit) == 0) continue;
-    text.append(text.empty() ? "" : ",").append(reason.name);
+  for (const std::string& name : names_of_reasons(reasons)) {
+    text.append(text.empty() ? "" : ",").append(name);
   }
   return text.empty() ? "none" : text;
 }

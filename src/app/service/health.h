@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/time.h"
 #include "vo/estimate.h"
@@ -21,6 +22,8 @@ enum class ServiceState : std::int8_t {
 };
 inline constexpr int kServiceStateCount = 7;
 [[nodiscard]] const char* name_of(ServiceState state);
+// The state of a status_t; kUnknown for numbers that this version does not know.
+[[nodiscard]] ServiceState state_from_message(std::int8_t state);
 
 // Reasons of the service itself, beside those of an Estimate.
 enum ServiceReason : std::uint32_t {
@@ -31,6 +34,8 @@ enum ServiceReason : std::uint32_t {
   kReasonRecordingFailed = 1u << 20,  // stopped by an error, or pairs were left out
 };
 
+// "residual_high", "late"; a bit without a name is its number: "0x800000".
+[[nodiscard]] std::vector<std::string> names_of_reasons(std::uint32_t reasons);
 // "residual_high,late"; "none".
 [[nodiscard]] std::string describe_reasons(std::uint32_t reasons);
 
