@@ -39,7 +39,10 @@ Result<void> RehearsedSource::rehearse() {
   }
   source_->stop();
   constexpr std::size_t kFewestPairs = 2;
-  if (pairs_.size() >= kFewestPairs) return {};
+  if (pairs_.size() >= kFewestPairs) {
+    source_.reset();  // with all the memory that it has
+    return {};
+  }
   const std::string found = std::to_string(std::exchange(pairs_, {}).size());
   return failure(ExitCode::kBadInput,
                  "a scene to be played for ever: found " + found + " frames, 2 are needed");

@@ -32,7 +32,7 @@ class RehearsedSource final : public FrameSource {
   };
   [[nodiscard]] Result<void> rehearse();
 
-  std::unique_ptr<FrameSource> source_;
+  std::unique_ptr<FrameSource> source_;  // until it is learned by heart
   double rate_hz_;
   std::int64_t frames_;
   std::vector<Pair> pairs_;

@@ -75,7 +75,10 @@ if [[ $# -eq 0 ]]; then scenarios=(""); fi
 
 deploy/install-deps.sh vm || { echo "skip vm: packages cannot be installed here"; exit 77; }
 command -v qemu-system-x86_64 >/dev/null || { echo "skip vm: there is no qemu-system-x86_64"; exit 77; }
-cmake --preset release -DDARKLING_TESTS=ON -DDARKLING_DESK_TOOL=ON >/dev/null
+# Usually built already, and perhaps in use.
+if [[ ! -f build/release/CMakeCache.txt ]]; then
+  cmake --preset release -DDARKLING_TESTS=ON -DDARKLING_DESK_TOOL=ON >/dev/null
+fi
 cmake --build --preset release --target darkling darklingd dump_frames feed_loopback hear
 mkdir -p "$vm"
 status=0

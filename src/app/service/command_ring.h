@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/spsc_ring.h"
+#include "base/time.h"
 #include "geometry/se3.h"
 
 namespace darkling {
@@ -10,7 +11,8 @@ namespace darkling {
 struct Wish {
   enum class Kind { kNone = 0, kReset, kReseed, kHint };
   Kind kind = Kind::kNone;
-  Se3 T_previous_body = {};  // of kHint
+  Se3 T_previous_body = {};  // of kHint: Body's motion …
+  Duration span = {};        // … in so much time
 };
 
 using WishRing = SpscRing<Wish, 16>;

@@ -37,8 +37,11 @@ void OdometryThread::serve(int cpu) {
     std::optional<WaitResult> pair = links_.pairs.pop_newest(skipped);
     if (!pair) continue;
     status.pairs_skipped.add(skipped);
-    take_wishes();
+    const FrameTime stamp =
+        pair->status == WaitStatus::kFrame ? pair->lease.frame().stamp : pair->stamp;
+    take_wishes(stamp);
     track(*pair);
+    last_stamp_ = stamp;
     pair.reset();
     status.pairs_in_flight.add(-1 - skipped);
     status.refinement_overruns.set(links_.odometry.refinement_overruns());
@@ -46,11 +49,11 @@ void OdometryThread::serve(int cpu) {
   }
 }
 
-void OdometryThread::take_wishes() {
-  while (const std::optional<Wish> wish = links_.wishes.try_pop()) {
+void OdometryThread::take_wishes(FrameTime stamp) {
+  while (std::optional<Wish> wish = links_.wishes.try_pop()) {
     switch (wish->kind) {
       case Wish::Kind::kNone:
-        break;
+        continue;
       case Wish::Kind::kReset:
         links_.odometry.reset();
         break;
@@ -58,11 +61,25 @@ void OdometryThread::take_wishes() {
         links_.odometry.reseed();
         break;
       case Wish::Kind::kHint:
+        if (!bring_to_pace(*wish, stamp)) continue;
         links_.odometry.hint(wish->T_previous_body);
         break;
     }
     if (links_.observer != nullptr) links_.observer->on_wish(*wish);
   }
+}
+
+// Makes a motion over some time one from the last pair to this one, at the same pace.
+// @return false when the two spans have nothing to do with each other.
+bool OdometryThread::bring_to_pace(Wish& wish, FrameTime stamp) const {
+  constexpr double kMostShare = 10.0;
+  if (!last_stamp_ || wish.span <= Duration::zero()) return false;
+  const double share =
+      static_cast<double>((stamp - *last_stamp_).count()) / static_cast<double>(wish.span.count());
+  if (!(share > 0.0 && share < kMostShare)) return false;
+  wish.T_previous_body = Se3::exp(share * wish.T_previous_body.log());
+  wish.span = stamp - *last_stamp_;
+  return true;
 }
 
 void OdometryThread::track(const WaitResult& pair) {

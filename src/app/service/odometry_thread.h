@@ -2,7 +2,7 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
+#include <optional>
 #include <thread>
 
 #include "app/service/capture_thread.h"
@@ -48,10 +48,12 @@ class OdometryThread {
 
  private:
   void serve(int cpu);
-  void take_wishes();
+  void take_wishes(FrameTime stamp);
+  bool bring_to_pace(Wish& wish, FrameTime stamp) const;
   void track(const WaitResult& pair);
 
   Links links_;
+  std::optional<FrameTime> last_stamp_;
   std::atomic<bool> is_stopping_ = false;
   std::thread thread_;  // last: it uses all of the above
 };

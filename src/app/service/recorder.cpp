@@ -88,13 +88,17 @@ void Recorder::on_wish(const Wish& wish) {
 void Recorder::on_pair(const WaitResult& pair, const Estimate&) {
   const std::int64_t number = next_;
   Slot& slot = slots_[static_cast<std::size_t>(number) % slots_.size()];
-  const bool is_needed =
-      is_recording_ && number - unwritten_ >= static_cast<std::int64_t>(slots_.size());
-  if (is_needed || slot.state == Slot::State::kWriting) {
+  if (is_recording_ && number - unwritten_ >= static_cast<std::int64_t>(slots_.size())) {
     drops_.add();
     return;
   }
-  slot.state = Slot::State::kFree;
+  Slot::State state = Slot::State::kFilled;
+  const bool is_ours =
+      slot.state.compare_exchange_strong(state, Slot::State::kFree) || state == Slot::State::kFree;
+  if (!is_ours) {
+    drops_.add();
+    return;
+  }
   slot.number = number;
   slot.fault = pair.status == WaitStatus::kBadFrame ? pair.fault : FrameFault::kNone;
   if (pair.status == WaitStatus::kFrame) {
@@ -131,7 +135,9 @@ void Recorder::record_new_pairs() {
   }
   if (!is_recording_) return;
   const std::int64_t to = next_;
-  if (!write(*log_, unwritten_, to)) is_recording_wanted_ = false;
+  const std::optional<std::int64_t> written = write(*log_, unwritten_, to);
+  recorded_.add(written.value_or(0));
+  if (!written) is_recording_wanted_ = false;
   unwritten_ = to;
   if (is_recording_wanted_) return;
   is_recording_ = false;
@@ -172,7 +178,9 @@ std::optional<FrameLogWriter> Recorder::create(Purpose purpose) {
   return std::move(*log);
 }
 
-bool Recorder::write(FrameLogWriter& log, std::int64_t from, std::int64_t to) {
+std::optional<std::int64_t> Recorder::write(FrameLogWriter& log, std::int64_t from,
+                                            std::int64_t to) {
+  std::int64_t written_pairs = 0;
   for (std::int64_t number = from; number < to; ++number) {
     Slot& slot = slots_[static_cast<std::size_t>(number) % slots_.size()];
     Slot::State filled = Slot::State::kFilled;
@@ -182,11 +190,11 @@ bool Recorder::write(FrameLogWriter& log, std::int64_t from, std::int64_t to) {
     slot.state = Slot::State::kFilled;
     if (!written) {
       fail(written.error().message);
-      return false;
+      return std::nullopt;
     }
-    if (is_there) recorded_.add();
+    written_pairs += is_there ? 1 : 0;
   }
-  return true;
+  return written_pairs;
 }
 
 Result<void> Recorder::write_slot(FrameLogWriter& log, Slot& slot) {

@@ -65,8 +65,8 @@ class Recorder final : public PairObserver {
   void serve();
   [[nodiscard]] std::optional<FrameLogWriter> create(Purpose purpose);
   // Writes the pairs from `from` up to `to` that are still there.
-  // @return false after an error, which is reported.
-  bool write(FrameLogWriter& log, std::int64_t from, std::int64_t to);
+  // @return how many those were; nothing after an error, which is reported.
+  std::optional<std::int64_t> write(FrameLogWriter& log, std::int64_t from, std::int64_t to);
   Result<void> write_slot(FrameLogWriter& log, Slot& slot);
   void record_new_pairs();
   void dump_black_box();

@@ -28,6 +28,7 @@ Result<void> add_wish(FrameLogWriter& log, const Wish& wish, FrameTime stamp,
   if (wish.kind == Wish::Kind::kHint) {
     hint_t hint = {};
     hint.utime_to = utime_us;
+    hint.utime_from = utime_us - wish.span.count() / 1000;
     std::copy_n(wish.T_previous_body.translation().data(), 3, hint.translation);
     const Eigen::Quaterniond& q = wish.T_previous_body.rotation();
     const std::array<double, 4> wxyz = {q.w(), q.x(), q.y(), q.z()};
