@@ -249,6 +249,34 @@ TEST_F(LibcameraSource, IsLostWhenARequestIsRefused) {
   EXPECT_THAT(source_->remarks(), Contains(HasSubstr("queueing a request: No such device")));
 }
 
+TEST_F(LibcameraSource, TakesACameraThatIsSilentForLost) {
+  start();
+  expose(0);
+  EXPECT_EQ(next_sequence(), 0);
+  library_.advance(std::chrono::seconds(2));
+  expose(1);
+  EXPECT_EQ(next_sequence(), 1);
+  library_.advance(std::chrono::seconds(2));
+  EXPECT_EQ(next().status, WaitStatus::kTimeout);
+  library_.advance(std::chrono::seconds(2));
+  EXPECT_EQ(next().status, WaitStatus::kDeviceLost);
+  EXPECT_THAT(source_->remarks(), Contains(HasSubstr("it brings no more frames")));
+}
+
+TEST_F(LibcameraSource, IsNotLostForSilenceWhileItHasNoBuffers) {
+  share();
+  start();
+  std::vector<WaitResult> held;
+  for (int k = 0; k < FakeLibcamera::kBufferCount; ++k) {
+    left_.expose(frame(k));
+    held.push_back(next());
+  }
+  library_.advance(std::chrono::seconds(20));
+  EXPECT_EQ(next().status, WaitStatus::kTimeout);
+  held.clear();
+  EXPECT_EQ(next().status, WaitStatus::kTimeout);
+}
+
 TEST_F(LibcameraSource, ClosesWhatItHasOpenedWhenTheOtherCannotStart) {
   create();
   right_.start_error = -EIO;
