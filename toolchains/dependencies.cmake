@@ -36,6 +36,21 @@ else()
   message(STATUS "Built without libsystemd-dev: no notification of systemd")
 endif()
 
+# Without it there are no cameras through libcamera.
+find_path(LIBCAMERA_INCLUDE_DIR libcamera/camera_manager.h PATH_SUFFIXES libcamera)
+find_library(LIBCAMERA_LIBRARY camera)
+find_library(LIBCAMERA_BASE_LIBRARY camera-base)
+if(LIBCAMERA_INCLUDE_DIR AND LIBCAMERA_LIBRARY AND LIBCAMERA_BASE_LIBRARY)
+  add_library(libcamera::libcamera UNKNOWN IMPORTED)
+  set_target_properties(libcamera::libcamera PROPERTIES
+    IMPORTED_LOCATION ${LIBCAMERA_LIBRARY}
+    INTERFACE_LINK_LIBRARIES ${LIBCAMERA_BASE_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${LIBCAMERA_INCLUDE_DIR}
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${LIBCAMERA_INCLUDE_DIR})
+else()
+  message(STATUS "Built without libcamera-dev: no cameras through libcamera")
+endif()
+
 # LCM ships no CMake package, and its lcm.pc asks for the development files of glib, which only LCM
 # itself uses. Generated messages need one header of it and no library. The generator is the host's
 # in cross builds too.

@@ -2,8 +2,9 @@
 #include "drivers/v4l2/capture_stamp.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+
+#include "drivers/camera/half_exposure.h"
 
 namespace darkling {
 
@@ -11,12 +12,7 @@ namespace {
 
 constexpr std::int64_t kLastSecond = 1LL << 33;  // 272 years; nanoseconds still fit 64 bits
 constexpr Duration kFuture = std::chrono::seconds(1);
-constexpr double kLongestExposure_ms = 60'000.0;
 constexpr Duration kExposureStep = std::chrono::microseconds(100);  // V4L2's unit
-
-Duration half_of(double exposure_ms) {
-  return Duration{std::llround(std::clamp(exposure_ms, 0.0, kLongestExposure_ms) * 0.5e6)};
-}
 
 std::optional<FrameTime> monotonic_stamp(const v4l2_buffer& buffer, FrameTime arrival) {
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
@@ -36,7 +32,7 @@ std::optional<FrameTime> monotonic_stamp(const v4l2_buffer& buffer, FrameTime ar
 
 CaptureStamp stamp_capture(const v4l2_buffer& buffer, MonotonicTime arrival, double exposure_ms) {
   const FrameTime arrived = frame_time_from_ns(to_ns(arrival));
-  const Duration half = half_of(exposure_ms);
+  const Duration half = half_exposure(exposure_ms);
   const auto stamp = monotonic_stamp(buffer, arrived);
   if (!stamp) return {.middle = arrived - half, .source = StampSource::kArrival};
   const bool is_start =
@@ -50,7 +46,8 @@ Duration stamp_uncertainty(StampSource source, double exposure_ms, bool is_autom
   switch (source) {
     case StampSource::kStartOfExposure:
       if (exposure_ms < 0.0) return period / 2;
-      return is_automatic ? std::max(half_of(exposure_ms), kExposureStep / 2) : kExposureStep / 2;
+      return is_automatic ? std::max(half_exposure(exposure_ms), kExposureStep / 2)
+                          : kExposureStep / 2;
     case StampSource::kEndOfFrame:
       return period;  // the readout takes at most that long
     case StampSource::kArrival:

@@ -9,7 +9,7 @@
 
 #include <linux/videodev2.h>
 
-#include "drivers/v4l2/eye_layout.h"
+#include "drivers/camera/eye_layout.h"
 
 namespace darkling {
 

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
 #include "base/camera_config.h"
 #include "base/result.h"
+#include "drivers/camera/pixel_formats.h"
 #include "drivers/v4l2/device_descriptor.h"
-#include "drivers/v4l2/pixel_formats.h"
 
 namespace darkling {
-
-// How a device's images lie in its buffers.
-struct ImageFormat {
-  PixelFormat format = PixelFormat::kAny;
-  std::uint32_t fourcc = 0;
-  ImageExtent extent = {};  // of the device's image, both eyes of a shared one together
-  std::ptrdiff_t stride_bytes = 0;
-  std::size_t bytes = 0;  // that a buffer must have filled
-};
 
 // @return kDeviceUnavailable when the node does not capture video into buffers.
 [[nodiscard]] Result<void> check_captures(const DeviceDescriptor& device);

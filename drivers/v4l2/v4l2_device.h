@@ -9,26 +9,13 @@
 
 #include "base/camera_config.h"
 #include "base/result.h"
+#include "drivers/camera/camera_stream.h"
 #include "drivers/v4l2/camera_controls.h"
 #include "drivers/v4l2/capture_stamp.h"
 #include "drivers/v4l2/device_descriptor.h"
 #include "drivers/v4l2/negotiate_format.h"
 
 namespace darkling {
-
-enum class Taken {
-  kNothing = 0,  // no buffer is full
-  kFrame,        // `buffer` is the caller's until given back
-  kBadBuffer,    // a frame that the device marked as bad or filled too little; given back already
-  kLost,         // the device is of no use any more
-};
-
-struct [[nodiscard]] TakenFrame {
-  Taken taken = Taken::kNothing;
-  int buffer = -1;
-  std::uint32_t sequence = 0;  // as the device counts
-  FrameTime stamp = {};        // mid-exposure
-};
 
 // One capture node, set up and streaming into buffers that it shares with us. Whatever it does,
 // it either goes on or is lost: then it is closed and opened anew.

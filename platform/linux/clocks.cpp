@@ -30,6 +30,14 @@ EpochTime read_epoch_clock() {
   return EpochTime{read_clock(CLOCK_REALTIME)};
 }
 
+Duration read_suspended_time() {
+  const Duration before = read_clock(CLOCK_MONOTONIC);
+  const Duration since_boot = read_clock(CLOCK_BOOTTIME);
+  const Duration between = (read_clock(CLOCK_MONOTONIC) - before) / 2;
+  const Duration ahead = since_boot - before - between;
+  return ahead < std::chrono::milliseconds(1) ? Duration::zero() : ahead;
+}
+
 Duration read_thread_cpu_time() {
   return read_clock(CLOCK_THREAD_CPUTIME_ID);
 }

@@ -22,13 +22,16 @@ enum class PixelFormat {
   kY16,
   kYuyv,
   kUyvy,
-  kNv12,
+  kNv12,   // or another format that begins with a plane of luma, where the driver knows one
   kBayer,  // any 8-bit Bayer order: each 2x2 cell becomes one grey pixel
+  kRgb,    // bytes in this order
+  kBgr,
 };
 
 struct CameraConfig {
   // "v4l2:/dev/video0" with one image of both eyes, "v4l2:/dev/video0,/dev/video1" with two
-  // devices, "libcamera:ID,ID", "synthetic:SCENE[,key=value…]" or a frame log, played at its pace.
+  // devices, "libcamera:ID[,ID]", "synthetic:SCENE[,key=value…]" or a frame log, played at its
+  // pace.
   std::string source;
   EyeLayout layout = EyeLayout::kTwoDevices;
   bool swap_eyes = false;

@@ -45,7 +45,7 @@ constexpr std::array kStereoWords = std::to_array<std::string_view>({"semi_globa
 constexpr std::array kLayoutWords =
     std::to_array<std::string_view>({"two_devices", "side_by_side", "top_bottom"});
 constexpr std::array kFormatWords = std::to_array<std::string_view>(
-    {"any", "grey", "y10", "y10p", "y12", "y16", "yuyv", "uyvy", "nv12", "bayer"});
+    {"any", "grey", "y10", "y10p", "y12", "y16", "yuyv", "uyvy", "nv12", "bayer", "rgb", "bgr"});
 
 // name, unit, least, most, field, what it is, whether 0 is allowed besides, limits' names.
 constexpr std::array kKeys = std::to_array<ConfigKey>({
@@ -73,7 +73,7 @@ constexpr std::array kKeys = std::to_array<ConfigKey>({
      member<kOdometry, &O::window_points>(), "Most points of each keyframe that are refined.",
      /*may_be_zero=*/false, "kMinWindowPoints, kMaxWindowPoints"},
 
-    {"camera", "v4l2:DEVICE[,DEVICE], libcamera:ID,ID, synthetic:SCENE or a frame log", 0, 0,
+    {"camera", "v4l2:DEVICE[,DEVICE], libcamera:ID[,ID], synthetic:SCENE or a frame log", 0, 0,
      member<kCamera, &K::source>(),
      "Where the service takes its frames from: one device that delivers both eyes, two devices "
      "left "

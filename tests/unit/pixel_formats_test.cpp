@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/v4l2/pixel_formats.h"
+#include "drivers/camera/pixel_formats.h"
 
 #include <vector>
 
@@ -44,6 +44,13 @@ TEST(PixelFormats, TakesTheUpperEightOfTenTwelveAndSixteenBits) {
   EXPECT_THAT(grey_of(PixelFormat::kY12, deep, 6, {3, 1}), ElementsAre(128, 255, 1));
   const Bytes full = {0xFF, 0x00, 0x00, 0x01, 0xFF, 0xFF};
   EXPECT_THAT(grey_of(PixelFormat::kY16, full, 6, {3, 1}), ElementsAre(0, 1, 255));
+}
+
+TEST(PixelFormats, WeighsColoursAsTheEyeDoesAndKeepsWhite) {
+  const Bytes rgb = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 10, 10, 10};
+  EXPECT_THAT(grey_of(PixelFormat::kRgb, rgb, 15, {5, 1}), ElementsAre(77, 149, 29, 255, 10));
+  EXPECT_THAT(grey_of(PixelFormat::kBgr, rgb, 15, {5, 1}), ElementsAre(29, 149, 77, 255, 10));
+  EXPECT_EQ(row_bytes(PixelFormat::kRgb, 7), 21);
 }
 
 TEST(PixelFormats, TakesValuesAboveTheirDepthForWhite) {

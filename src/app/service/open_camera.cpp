@@ -3,6 +3,7 @@
 
 #include "drivers/framelog/frame_log.h"
 #include "drivers/framelog/framelog_source.h"
+#include "drivers/libcamera/libcamera_source.h"
 #include "drivers/live/paced_source.h"
 #include "drivers/live/rehearsed_source.h"
 #include "drivers/synthetic/synthetic_source.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::string_view kSynthetic = "synthetic:";
 constexpr std::string_view kV4l2 = "v4l2:";
+constexpr std::string_view kLibcamera = "libcamera:";
 constexpr std::string_view kFrameLog = ".lcmlog";
 
 // A scene is rendered once and then driven to and fro: no processor renders it at a camera's pace
@@ -48,6 +50,16 @@ Result<LiveCamera> open_v4l2(const Config& config) {
   return LiveCamera{.name = config.camera.source, .source = std::move(*source), .rig = *rig};
 }
 
+Result<LiveCamera> open_libcamera(const Config& config) {
+  const auto rig = load_rig(config);
+  if (!rig) return tl::unexpected(rig.error());
+  auto source = create_libcamera_source(config.camera, {rig->left.width, rig->left.height});
+  if (!source) {
+    return failure(ExitCode::kConfiguration, "key 'camera': " + source.error().message);
+  }
+  return LiveCamera{.name = config.camera.source, .source = std::move(*source), .rig = *rig};
+}
+
 Result<LiveCamera> open_log(const Config& config) {
   auto log = open_frame_log(config.camera.source);
   if (!log) return tl::unexpected(log.error());
@@ -69,10 +81,11 @@ Result<LiveCamera> open_camera(const Config& config) {
   }
   if (source.starts_with(kSynthetic)) return open_scene(config);
   if (source.starts_with(kV4l2)) return open_v4l2(config);
+  if (source.starts_with(kLibcamera)) return open_libcamera(config);
   if (source.ends_with(kFrameLog)) return open_log(config);
   return failure(ExitCode::kConfiguration,
                  "key 'camera': found '" + source +
-                     "', allowed is v4l2:DEVICE[,DEVICE], libcamera:ID,ID, synthetic:SCENE or a "
+                     "', allowed is v4l2:DEVICE[,DEVICE], libcamera:ID[,ID], synthetic:SCENE or a "
                      "frame log (*.lcmlog)");
 }
 

@@ -1,110 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of V4l2Source that runs for every frame; nothing here claims memory.
+// The part of StreamSource that runs for every frame; nothing here claims memory.
 #include <algorithm>
 
-#include "drivers/v4l2/eye_layout.h"
-#include "drivers/v4l2/v4l2_source.h"
+#include "drivers/camera/eye_layout.h"
+#include "drivers/camera/stream_source.h"
 
 namespace darkling {
 
 namespace {
 
-// How soon a buffer that came back while a device had none goes to the device.
+// How soon a buffer that came back while a camera had none goes to the camera.
 constexpr Duration kReturnCheck = std::chrono::milliseconds(2);
 
 }  // namespace
 
-WaitResult V4l2Source::wait_next(Duration timeout) {
-  CHECK(devices_[0] != nullptr, "start() comes before wait_next()");
-  const MonotonicTime deadline = calls_.now() + timeout;
+WaitResult StreamSource::wait_next(Duration timeout) {
+  CHECK(streams_[0] != nullptr, "start() comes before wait_next()");
+  const MonotonicTime deadline = cameras_->now() + timeout;
   for (bool is_over = false;;) {
     reclaim_slots();
     if (Slot* slot = free_slot(); slot != nullptr && !is_lost()) {
-      WaitResult result = devices_[1] == nullptr ? next_shared(*slot) : next_pair(*slot);
+      WaitResult result = streams_[1] == nullptr ? next_shared(*slot) : next_pair(*slot);
       if (result.status != WaitStatus::kUnknown) return result;
     }
     if (is_lost()) return {.status = WaitStatus::kDeviceLost};
     if (is_over) return {.status = WaitStatus::kTimeout};
-    const Duration left = std::max(deadline - calls_.now(), Duration::zero());
+    const Duration left = std::max(deadline - cameras_->now(), Duration::zero());
     is_over = left == Duration::zero();  // after one last look
-    wait_for_devices(left);
+    wait_for_streams(left);
   }
 }
 
-bool V4l2Source::is_lost() const {
-  return std::any_of(devices_.begin(), devices_.end(),
-                     [](const auto& device) { return device != nullptr && device->is_lost(); });
+bool StreamSource::is_lost() const {
+  return std::any_of(streams_.begin(), streams_.end(),
+                     [](const auto& stream) { return stream != nullptr && stream->is_lost(); });
 }
 
-void V4l2Source::reclaim_slots() {
+void StreamSource::reclaim_slots() {
   for (Slot& slot : slots_) {
     if (slot.state.load(std::memory_order_acquire) != SlotState::kReturned) continue;
     for (std::size_t i = 0; i < slot.buffers.size(); ++i) {
-      if (slot.buffers[i] >= 0) devices_[i]->give_back(slot.buffers[i]);
+      if (slot.buffers[i] >= 0) streams_[i]->give_back(slot.buffers[i]);
       slot.buffers[i] = -1;
     }
     slot.state.store(SlotState::kFree, std::memory_order_relaxed);
   }
 }
 
-V4l2Source::Slot* V4l2Source::free_slot() {
+StreamSource::Slot* StreamSource::free_slot() {
   auto* slot = std::find_if(slots_.begin(), slots_.end(), [](const Slot& candidate) {
     return candidate.state.load(std::memory_order_relaxed) == SlotState::kFree;
   });
   return slot == slots_.end() ? nullptr : slot;
 }
 
-void V4l2Source::wait_for_devices(Duration timeout) {
+void StreamSource::wait_for_streams(Duration timeout) {
   const bool has_slot = free_slot() != nullptr;
   bool is_starved = !has_slot;
-  std::array<pollfd, 2> wanted = {{{.fd = -1, .events = 0, .revents = 0},  // -1: passed over
-                                   {.fd = -1, .events = 0, .revents = 0}}};
+  std::array<CameraStream*, 2> wanted = {};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (devices_[i] == nullptr) continue;
-    // Older kernels call it an error to wait for a device that has no buffer.
-    const bool has_buffer = devices_[i]->queued_count() > 0;
+    if (streams_[i] == nullptr) continue;
+    const bool has_buffer = streams_[i]->queued_count() > 0;
     is_starved = is_starved || !has_buffer;
-    if (!has_slot || !has_buffer) continue;
-    wanted[i].fd = devices_[i]->descriptor();
-    wanted[i].events = POLLIN | POLLPRI;
+    if (has_slot) wanted[i] = streams_[i].get();
   }
-  const int ready = calls_.poll(wanted, is_starved ? std::min(timeout, kReturnCheck) : timeout);
-  if (ready <= 0) return;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (wanted[i].fd < 0) continue;
-    devices_[i]->note_events(wanted[i].revents);
-    is_readable_[i] = (wanted[i].revents & POLLIN) != 0;
-  }
+  cameras_->wait(wanted, is_starved ? std::min(timeout, kReturnCheck) : timeout);
 }
 
-TakenFrame V4l2Source::take_from(std::size_t device, std::int64_t& index) {
-  if (!is_readable_[device]) return {};
-  is_readable_[device] = false;
-  TakenFrame frame = devices_[device]->take();
+TakenFrame StreamSource::take_from(std::size_t camera, std::int64_t& index) {
+  TakenFrame frame = streams_[camera]->take();
   if (frame.taken != Taken::kFrame && frame.taken != Taken::kBadBuffer) return frame;
-  index = indices_[device].advance(frame.sequence);
-  stats_.dropped_by_device += indices_[device].lost();
+  index = indices_[camera].advance(frame.sequence);
+  stats_.dropped_by_device += indices_[camera].lost();
   stats_.device_errors += frame.taken == Taken::kBadBuffer ? 1 : 0;
   published_stats_.store(stats_);
   return frame;
 }
 
-ImageView<const std::uint8_t> V4l2Source::bring(std::size_t device, int buffer, Slot& slot) {
-  V4l2Device& from = *devices_[device];
+ImageView<const std::uint8_t> StreamSource::bring(std::size_t camera, int buffer, Slot& slot) {
+  CameraStream& from = *streams_[camera];
   const ImageFormat& format = from.format();
   const ImageExtent grey = grey_extent(format.format, format.extent);
   if (is_grey_in_place(format.format)) {
-    slot.buffers[device] = buffer;
+    slot.buffers[camera] = buffer;
     return {from.pixels(buffer), grey.width, grey.height, format.stride_bytes};
   }
-  const ImageView<std::uint8_t> copy(slot.copies[device].data(), grey.width, grey.height,
+  const ImageView<std::uint8_t> copy(slot.copies[camera].data(), grey.width, grey.height,
                                      grey.width);
   to_grey(format.format, from.pixels(buffer), format.stride_bytes, copy);
   from.give_back(buffer);
   return copy;
 }
 
-WaitResult V4l2Source::next_shared(Slot& slot) {
+WaitResult StreamSource::next_shared(Slot& slot) {
   std::int64_t index = 0;
   const TakenFrame taken = take_from(0, index);
   if (taken.taken != Taken::kFrame && taken.taken != Taken::kBadBuffer) return {};
@@ -122,7 +110,7 @@ WaitResult V4l2Source::next_shared(Slot& slot) {
   return lend({.sequence = number, .stamp = taken.stamp, .left = eyes[0], .right = eyes[1]}, slot);
 }
 
-WaitResult V4l2Source::next_pair(Slot& slot) {
+WaitResult StreamSource::next_pair(Slot& slot) {
   PairResult pair = pairing_->next();
   if (pair.outcome == PairOutcome::kNothing) {
     take_eyes();
@@ -139,7 +127,7 @@ WaitResult V4l2Source::next_pair(Slot& slot) {
   return {};
 }
 
-void V4l2Source::take_eyes() {
+void StreamSource::take_eyes() {
   for (const Eye eye : {Eye::kLeft, Eye::kRight}) {
     StampedFrame frame;
     const TakenFrame taken = take_from(static_cast<std::size_t>(eye), frame.index);
@@ -150,7 +138,7 @@ void V4l2Source::take_eyes() {
   }
 }
 
-WaitResult V4l2Source::deliver_pair(const PairResult& pair, Slot& slot) {
+WaitResult StreamSource::deliver_pair(const PairResult& pair, Slot& slot) {
   last_skew_ = pair.right.stamp - pair.left.stamp;
   const StereoFrame frame{.sequence = numbers_.number_pair(pair.left.index, pair.right.index),
                           .stamp = pair.left.stamp,
@@ -159,8 +147,8 @@ WaitResult V4l2Source::deliver_pair(const PairResult& pair, Slot& slot) {
   return lend(frame, slot);
 }
 
-WaitResult V4l2Source::report_unpaired(Eye eye, const StampedFrame& frame) {
-  devices_[static_cast<std::size_t>(eye)]->give_back(frame.buffer);
+WaitResult StreamSource::report_unpaired(Eye eye, const StampedFrame& frame) {
+  streams_[static_cast<std::size_t>(eye)]->give_back(frame.buffer);
   const NumberPairs::Missing missing = numbers_.number_unpaired(eye, frame.index);
   if (!missing.is_new) return {};
   ++stats_.unpaired;
@@ -171,24 +159,24 @@ WaitResult V4l2Source::report_unpaired(Eye eye, const StampedFrame& frame) {
           .stamp = frame.stamp};
 }
 
-WaitResult V4l2Source::lend(const StereoFrame& frame, Slot& slot) {
+WaitResult StreamSource::lend(const StereoFrame& frame, Slot& slot) {
   slot.state.store(SlotState::kOnLoan, std::memory_order_relaxed);
   ++stats_.delivered;
   if (last_stamp_ && frame.stamp <= *last_stamp_) ++stats_.stamps_not_increasing;
   last_stamp_ = frame.stamp;
   published_stats_.store(stats_);
-  for (const auto& device : devices_) {
-    if (device != nullptr) device->refresh_exposure();
+  for (const auto& stream : streams_) {
+    if (stream != nullptr) stream->refresh_exposure();
   }
-  CameraState camera = devices_[0]->state();
+  CameraState camera = streams_[0]->state();
   camera.last_skew = last_skew_;
   published_camera_.store(camera);
   return {.status = WaitStatus::kFrame,
           .lease = FrameLease(frame, &give_back, this, static_cast<int>(&slot - slots_.data()))};
 }
 
-void V4l2Source::give_back(void* source, int slot) {
-  auto* self = static_cast<V4l2Source*>(source);
+void StreamSource::give_back(void* source, int slot) {
+  auto* self = static_cast<StreamSource*>(source);
   self->slots_.at(slot).state.store(SlotState::kReturned, std::memory_order_release);
 }
 

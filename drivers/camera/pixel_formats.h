@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How V4L2's pixel formats lie in memory, and their way to 8-bit grey.
+// How the pixel formats of cameras lie in memory, V4L2's codes for them, and their way to 8-bit
+// grey.
 #pragma once
 
 #include <array>
@@ -20,11 +21,20 @@ struct ImageExtent {
   friend bool operator==(const ImageExtent&, const ImageExtent&) = default;
 };
 
+// How a device's images lie in its buffers.
+struct ImageFormat {
+  PixelFormat format = PixelFormat::kAny;
+  std::uint32_t fourcc = 0;
+  ImageExtent extent = {};  // of the device's image, both eyes of a shared one together
+  std::ptrdiff_t stride_bytes = 0;
+  std::size_t bytes = 0;  // that a buffer must have filled
+};
+
 // Every format but kAny, in the order in which they are tried.
-inline constexpr std::array<PixelFormat, 9> kPixelFormats = {
-    PixelFormat::kGrey, PixelFormat::kY10,  PixelFormat::kY10P,
-    PixelFormat::kY12,  PixelFormat::kY16,  PixelFormat::kYuyv,
-    PixelFormat::kUyvy, PixelFormat::kNv12, PixelFormat::kBayer};
+inline constexpr std::array<PixelFormat, 11> kPixelFormats = {
+    PixelFormat::kGrey,  PixelFormat::kY10,  PixelFormat::kY10P, PixelFormat::kY12,
+    PixelFormat::kY16,   PixelFormat::kYuyv, PixelFormat::kUyvy, PixelFormat::kNv12,
+    PixelFormat::kBayer, PixelFormat::kRgb,  PixelFormat::kBgr};
 
 // As configuration and messages call it: "grey", "y10p", "bayer".
 [[nodiscard]] const char* pixel_format_name(PixelFormat format);
@@ -52,7 +62,8 @@ inline constexpr std::array<PixelFormat, 9> kPixelFormats = {
                                       std::ptrdiff_t stride_bytes);
 
 // Writes the image as 8-bit grey: the upper 8 bits of deeper pixels, those above their depth's
-// range being white; luma; the rounded mean of each 2x2 Bayer cell.
+// range being white; luma, for RGB by the weights of ITU-R BT.601 in 256ths; the rounded mean of
+// each 2x2 Bayer cell.
 // @param source  image_bytes() of readable bytes, of any alignment.
 // @param grey    of grey_extent().
 // Exactness: integers only, the same on every machine.

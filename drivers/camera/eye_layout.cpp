@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/v4l2/eye_layout.h"
+#include "drivers/camera/eye_layout.h"
 
 namespace darkling {
 

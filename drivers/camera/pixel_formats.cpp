@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/v4l2/pixel_formats.h"
+#include "drivers/camera/pixel_formats.h"
 
 #include <algorithm>
 #include <cstring>
@@ -30,6 +30,8 @@ constexpr std::array<Format, kPixelFormats.size()> kFormats = {{
     {PixelFormat::kBayer,
      "bayer",
      {V4L2_PIX_FMT_SBGGR8, V4L2_PIX_FMT_SGBRG8, V4L2_PIX_FMT_SGRBG8, V4L2_PIX_FMT_SRGGB8}},
+    {PixelFormat::kRgb, "rgb", {V4L2_PIX_FMT_RGB24}},
+    {PixelFormat::kBgr, "bgr", {V4L2_PIX_FMT_BGR24}},
 }};
 
 const Format* find_format(PixelFormat format) {
@@ -68,6 +70,15 @@ void take_cells(const std::uint8_t* upper, const std::uint8_t* lower,
   }
 }
 
+// Three bytes a pixel; the weights sum to 256, so that white stays white.
+void take_colours(const std::uint8_t* source, int red, int blue, std::span<std::uint8_t> grey) {
+  for (std::size_t x = 0; x < grey.size(); ++x) {
+    const std::uint8_t* pixel = source + 3 * x;
+    const int sum = 77 * pixel[red] + 150 * pixel[1] + 29 * pixel[blue];
+    grey[x] = static_cast<std::uint8_t>((sum + 128) / 256);
+  }
+}
+
 void take_row(PixelFormat format, const std::uint8_t* source, std::ptrdiff_t stride_bytes,
               std::span<std::uint8_t> grey) {
   switch (format) {
@@ -95,6 +106,12 @@ void take_row(PixelFormat format, const std::uint8_t* source, std::ptrdiff_t str
       return;
     case PixelFormat::kBayer:
       take_cells(source, source + stride_bytes, grey);
+      return;
+    case PixelFormat::kRgb:
+      take_colours(source, 0, 2, grey);
+      return;
+    case PixelFormat::kBgr:
+      take_colours(source, 2, 0, grey);
       return;
     case PixelFormat::kAny:
       break;
@@ -153,6 +170,9 @@ std::ptrdiff_t row_bytes(PixelFormat format, int width_px) {
       return 2 * width;
     case PixelFormat::kY10P:
       return (width * 5 + 3) / 4;
+    case PixelFormat::kRgb:
+    case PixelFormat::kBgr:
+      return 3 * width;
     default:
       return width;
   }

@@ -6,7 +6,7 @@
 
 #include "base/camera_config.h"
 #include "base/image_view.h"
-#include "drivers/v4l2/pixel_formats.h"
+#include "drivers/camera/pixel_formats.h"
 
 namespace darkling {
 
