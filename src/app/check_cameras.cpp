@@ -3,8 +3,8 @@
 
 #include "app/open_source.h"
 #include "base/number_text.h"
+#include "drivers/camera/eye_layout.h"
 #include "drivers/framelog/framelog_source.h"
-#include "drivers/v4l2/eye_layout.h"
 #include "drivers/v4l2/negotiate_format.h"
 #include "drivers/v4l2/v4l2_source.h"
 #include "drivers/v4l2/v4l2_spec.h"
