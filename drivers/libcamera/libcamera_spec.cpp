@@ -19,7 +19,9 @@ tl::unexpected<Error> refuse(std::string_view text, const std::string& reason) {
 }
 
 std::string list_text(const std::vector<std::string>& ids) {
-  if (ids.empty()) return "libcamera sees no camera";
+  if (ids.empty()) {
+    return "libcamera sees no camera (it may not see one that another program has)";
+  }
   std::string text = "libcamera sees";
   for (std::size_t i = 0; i < ids.size(); ++i) {
     text += (i == 0 ? " " : ", ") + std::to_string(i) + " \"" + ids[i] + "\"";

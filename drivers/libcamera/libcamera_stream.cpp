@@ -14,13 +14,16 @@ namespace {
 
 // Said in place of an error number when no call failed.
 constexpr const char* kGone = "it has gone";
+constexpr const char* kSilent = "it brings no more frames";
 constexpr const char* kForeignBuffer = "it completed a request that was not queued";
 
 }  // namespace
 
-LibcameraStream::LibcameraStream(std::string id, std::unique_ptr<CompletedFrames> completed,
+LibcameraStream::LibcameraStream(std::string id, const LibcameraCalls& calls,
+                                 std::unique_ptr<CompletedFrames> completed,
                                  std::unique_ptr<RequestCamera> camera)
     : id_(std::move(id)),
+      calls_(calls),
       completed_(std::move(completed)),
       camera_(std::move(camera)),
       period_(camera_->setup().period) {
@@ -39,6 +42,7 @@ Result<void> LibcameraStream::stream_on() {
 }
 
 int LibcameraStream::queue(int buffer) {
+  if (queued_count() == 0) waiting_since_ = calls_.now();  // it had nothing to fill
   // Before the call: the frame may complete within it.
   is_queued_[buffer] = true;
   const int error = camera_->queue(buffer);
@@ -50,10 +54,12 @@ TakenFrame LibcameraStream::take() {
   if (is_lost()) return {.taken = Taken::kLost};
   const auto completed = completed_->pop();
   if (!completed) {
-    if (!completed_->is_disconnected()) return {.taken = Taken::kNothing};
-    lose(kGone, 0);
+    const bool is_gone = completed_->is_disconnected();
+    if (!is_gone && !is_silent()) return {.taken = Taken::kNothing};
+    lose(is_gone ? kGone : kSilent, 0);
     return {.taken = Taken::kLost};
   }
+  waiting_since_ = calls_.now();
   const int buffer = completed->buffer;
   if (buffer < 0 || buffer >= camera_->setup().buffer_count || !is_queued_[buffer]) {
     lose(kForeignBuffer, 0);
@@ -72,6 +78,11 @@ TakenFrame LibcameraStream::take() {
     frame.buffer = -1;
   }
   return frame;
+}
+
+bool LibcameraStream::is_silent() const {
+  const Duration silence = std::max<Duration>(kLeastSilence, 4 * period_);
+  return queued_count() > 0 && calls_.now() > waiting_since_ + silence;
 }
 
 FrameTime LibcameraStream::note(const CompletedFrame& frame) {

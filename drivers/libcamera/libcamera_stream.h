@@ -11,11 +11,19 @@
 
 namespace darkling {
 
-// A camera of libcamera as a stream of frames with stamps.
+// A camera of libcamera as a stream of frames with stamps. libcamera does not always notice that a
+// camera has gone; one that has buffers and is silent for long is taken for lost.
 class LibcameraStream final : public CameraStream {
  public:
+  // At least so long, and four periods. What comes of it depends on the version: 0.0.3 asserts in
+  // stop() that all requests have come back, and if the driver was unbound they have not; the
+  // process ends and its restart finds the camera. Not to stop would leave it without camera for
+  // ever.
+  static constexpr Duration kLeastSilence = std::chrono::seconds(3);
+
   // @param completed  where `camera` puts its frames.
-  LibcameraStream(std::string id, std::unique_ptr<CompletedFrames> completed,
+  LibcameraStream(std::string id, const LibcameraCalls& calls,
+                  std::unique_ptr<CompletedFrames> completed,
                   std::unique_ptr<RequestCamera> camera);
 
   Result<void> stream_on() override;
@@ -38,14 +46,17 @@ class LibcameraStream final : public CameraStream {
  private:
   // @return a negative error number, or 0.
   int queue(int buffer);
+  [[nodiscard]] bool is_silent() const;
   // @return the stamp of the middle; keeps what the frame says of the camera.
   FrameTime note(const CompletedFrame& frame);
   void lose(const char* call, int error);
 
   const std::string id_;
+  const LibcameraCalls& calls_;
   const std::unique_ptr<CompletedFrames> completed_;  // goes after:
   const std::unique_ptr<RequestCamera> camera_;       // it still brings frames while it stops
   std::array<bool, CompletedFrames::kCapacity> is_queued_ = {};
+  MonotonicTime waiting_since_ = {};  // for the next frame
   double exposure_ms_ = -1.0;
   double gain_ = -1.0;
   Duration period_ = Duration::zero();  // 0: not known

@@ -7,7 +7,6 @@
 
 #include "drivers/libcamera/libcamera_spec.h"
 #include "drivers/libcamera/libcamera_stream.h"
-#include "platform/clocks.h"
 
 namespace darkling {
 
@@ -26,7 +25,7 @@ Result<std::unique_ptr<CameraStream>> LibcameraStreams::open(const std::string& 
   auto camera = calls_.open(*id, config, eye, *completed);
   if (!camera) return tl::unexpected<Error>(camera.error());
   opened_.push_back(*id);
-  return std::make_unique<LibcameraStream>(*id, std::move(completed), std::move(*camera));
+  return std::make_unique<LibcameraStream>(*id, calls_, std::move(completed), std::move(*camera));
 }
 
 void LibcameraStreams::wait(std::span<CameraStream* const> wanted, Duration timeout) {
@@ -45,7 +44,7 @@ void LibcameraStreams::all_closed() {
 }
 
 MonotonicTime LibcameraStreams::now() const {
-  return read_monotonic_clock();
+  return calls_.now();
 }
 
 }  // namespace darkling

@@ -13,6 +13,7 @@
 #include "base/time.h"
 #include "drivers/camera/pixel_formats.h"
 #include "drivers/libcamera/completed_frames.h"
+#include "platform/clocks.h"
 
 namespace darkling {
 
@@ -53,6 +54,7 @@ class LibcameraCalls {
                                                       CompletedFrames& completed) = 0;
   // Stops the library. @pre every camera is closed.
   virtual void shut_down() = 0;
+  [[nodiscard]] virtual MonotonicTime now() const { return read_monotonic_clock(); }
 };
 
 }  // namespace darkling

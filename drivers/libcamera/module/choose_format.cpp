@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "drivers/camera/eye_layout.h"
 #include "drivers/libcamera/drm_formats.h"
@@ -58,12 +59,12 @@ std::string offers_text(const libcamera::StreamConfiguration& stream) {
   return text;
 }
 
-// @param offers  gets what the camera says it has, and what it made of requests.
+// @param offers  gets what the camera says it has and what it made of requests.
 std::optional<ImageFormat> try_formats(libcamera::CameraConfiguration& configuration,
                                        const CameraConfig& config, ImageExtent eye,
                                        std::string& offers) {
   libcamera::StreamConfiguration& stream = configuration.at(0);
-  offers += (offers.empty() ? "" : ", ") + offers_text(stream);
+  offers = offers_text(stream);
   const auto offered = stream.formats().pixelformats();
   for (const DrmFormat& wanted : drm_formats()) {
     if (config.format != PixelFormat::kAny && config.format != wanted.format) continue;
@@ -86,19 +87,25 @@ std::optional<ImageFormat> try_formats(libcamera::CameraConfiguration& configura
 
 Result<ChosenFormat> choose_format(libcamera::Camera& camera, const CameraConfig& config,
                                    ImageExtent eye) {
-  std::string offers;
+  std::vector<std::string> offers;  // by role, each once: many cameras have one stream for all
   for (const libcamera::StreamRole role : kRoles) {
     auto configuration = versions::configuration_of(camera, role);
     if (configuration == nullptr || configuration->empty()) continue;
-    const auto format = try_formats(*configuration, config, eye, offers);
+    std::string offered;
+    const auto format = try_formats(*configuration, config, eye, offered);
     if (format) return ChosenFormat{.configuration = std::move(configuration), .format = *format};
+    if (std::find(offers.begin(), offers.end(), offered) == offers.end()) offers.push_back(offered);
+  }
+  std::string text = "no format";
+  for (std::size_t i = 0; i < offers.size(); ++i) {
+    text = i == 0 ? offers[i] : text + "; or raw: " + offers[i];
   }
   return failure(ExitCode::kDeviceUnavailable,
                  "libcamera camera \"" + camera.id() +
                      "\": no format fits; wanted: " + pixel_format_name(config.format) + " at " +
                      extent_text(wanted_extent(config, config.format, eye)) +
                      " for eyes of the calibration's " + extent_text(eye) +
-                     "; the camera offers: " + (offers.empty() ? "no format" : offers));
+                     "; the camera offers: " + text);
 }
 
 }  // namespace darkling
