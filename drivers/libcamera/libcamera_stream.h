@@ -15,8 +15,10 @@ namespace darkling {
 // camera has gone; one that has buffers and is silent for long is taken for lost.
 class LibcameraStream final : public CameraStream {
  public:
-  // At least so long, and four periods. 0.0.3 ends the process when a camera that it believes to be
-  // there appears once more, so it has to be closed before it is plugged in again.
+  // At least so long, and four periods. What comes of it depends on the version: 0.0.3 asserts in
+  // stop() that all requests have come back, and if the driver was unbound they have not; the
+  // process ends and its restart finds the camera. Not to stop would leave it without camera for
+  // ever.
   static constexpr Duration kLeastSilence = std::chrono::seconds(3);
 
   // @param completed  where `camera` puts its frames.
