@@ -12,7 +12,8 @@ std::vector<std::string> words_of(const std::string& url, const std::string& not
                                   const std::vector<std::string>& more_words) {
   const long long period_us = std::chrono::microseconds(watchdog).count();
   std::vector<std::string> words = {"/usr/bin/env", "NOTIFY_SOCKET=" + notify_path,
-                                    "WATCHDOG_USEC=" + std::to_string(period_us), DARKLINGD_PROGRAM};
+                                    "WATCHDOG_USEC=" + std::to_string(period_us),
+                                    DARKLINGD_PROGRAM};
   words.insert(words.end(), more_words.begin(), more_words.end());
   const auto set = [&](const std::string& setting) {
     words.insert(words.end(), {"--set", setting});

@@ -72,14 +72,15 @@ TEST(Health, GathersReasonsUntilTheyAreTaken) {
   health.observe(with_status(TrackStatus::kDegraded, kReasonResidualHigh), at(10));
   health.observe(with_status(TrackStatus::kValid), at(20));
   health.observe(kReasonLate);
-  EXPECT_EQ(health.take_reasons(), kReasonResidualHigh | kReasonLate);
+  EXPECT_EQ(health.take_reasons(), std::uint32_t{kReasonResidualHigh} | kReasonLate);
   EXPECT_EQ(health.take_reasons(), 0U);
 }
 
 TEST(Health, NamesStatesAndReasons) {
   EXPECT_STREQ(name_of(ServiceState::kNoCamera), "NO_CAMERA");
   EXPECT_EQ(describe_reasons(0), "none");
-  EXPECT_EQ(describe_reasons(kReasonResidualHigh | kReasonLate), "residual_high,late");
+  EXPECT_EQ(describe_reasons(std::uint32_t{kReasonResidualHigh} | kReasonLate),
+            "residual_high,late");
 }
 
 TEST(WallClock, CountsStepsAndNotDrift) {
