@@ -11,6 +11,7 @@
 #include "geometry/se3.h"
 #include "messages/command_t.hpp"
 #include "messages/hint_t.hpp"
+#include "messages/wire.h"
 #include "service/service_process.h"
 #include "support/random.h"
 #include "support/tiny_dataset.h"
@@ -98,9 +99,9 @@ class Commands : public ::testing::Test {
   void send(std::int8_t command) {
     command_t message = {};
     message.command = command;
-    std::array<std::uint8_t, 64> bytes;
-    const int size = message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    service_.listener().send("VO_COMMAND", bytes.data(), static_cast<std::size_t>(size));
+    std::array<std::byte, 64> bytes;
+    const std::size_t size = encode_into(std::span(bytes), message);
+    service_.listener().send("VO_COMMAND", bytes.data(), size);
   }
   // The service begins to listen some time after it begins to speak: asks until it was heard.
   [[nodiscard]] bool send_until(std::int8_t command,
@@ -158,8 +159,8 @@ TEST_F(Commands, NoMessageWhateverItIsDoesHarm) {
     hint.valid_for_ms = 1;
     for (double& t : hint.translation) t = value;
     for (double& q : hint.rotation) q = value;
-    const int size = hint.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    service_.listener().send("VO_HINT", bytes.data(), static_cast<std::size_t>(size));
+    const std::size_t size = encode_into(std::as_writable_bytes(std::span(bytes)), hint);
+    service_.listener().send("VO_HINT", bytes.data(), size);
   }
   const std::size_t before = service_.listener().heard().poses.size();
   EXPECT_TRUE(service_.listener().wait_until(

@@ -56,6 +56,7 @@ Recorder::Recorder(const Config& config, const StereoRig& rig, const std::string
     slot.left.resize(pixels);
     slot.right.resize(pixels);
   }
+  begin_when_wanted();  // before the first pair: a replay needs them all
   thread_ = std::thread([this] { serve(); });
 }
 
@@ -126,13 +127,16 @@ void Recorder::serve() {
   if (log_) static_cast<void>(log_->close());
 }
 
+void Recorder::begin_when_wanted() {
+  if (!is_recording_wanted_ || is_recording_) return;
+  log_ = create(Purpose::kRecording);
+  unwritten_ = next_.load();
+  is_recording_ = log_.has_value();
+  if (!log_) is_recording_wanted_ = false;
+}
+
 void Recorder::record_new_pairs() {
-  if (is_recording_wanted_ && !is_recording_) {
-    log_ = create(Purpose::kRecording);
-    unwritten_ = next_.load();
-    is_recording_ = log_.has_value();
-    if (!log_) is_recording_wanted_ = false;
-  }
+  begin_when_wanted();
   if (!is_recording_) return;
   const std::int64_t to = next_;
   const std::optional<std::int64_t> written = write(*log_, unwritten_, to);

@@ -68,6 +68,7 @@ class Recorder final : public PairObserver {
   // @return how many those were; nothing after an error, which is reported.
   std::optional<std::int64_t> write(FrameLogWriter& log, std::int64_t from, std::int64_t to);
   Result<void> write_slot(FrameLogWriter& log, Slot& slot);
+  void begin_when_wanted();
   void record_new_pairs();
   void dump_black_box();
   void fail(const std::string& error);

@@ -53,9 +53,11 @@ std::optional<Wish> understand_hint(std::span<const std::byte> message, EpochTim
   const Eigen::Quaterniond q(hint.rotation[0], hint.rotation[1], hint.rotation[2],
                              hint.rotation[3]);
   const Vector3 t(hint.translation[0], hint.translation[1], hint.translation[2]);
-  return Wish{.kind = Wish::Kind::kHint,
-              .T_previous_body = Se3(q.normalized(), t),
-              .span = std::chrono::microseconds(hint.utime_to - hint.utime_from)};
+  Wish wish;
+  wish.kind = Wish::Kind::kHint;
+  wish.T_previous_body = Se3(q, t);
+  wish.span = std::chrono::microseconds(hint.utime_to - hint.utime_from);
+  return wish;
 }
 
 }  // namespace darkling
