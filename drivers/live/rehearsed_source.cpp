@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "platform/process_memory.h"
+
 namespace darkling {
 
 namespace {
@@ -41,6 +43,7 @@ Result<void> RehearsedSource::rehearse() {
   constexpr std::size_t kFewestPairs = 2;
   if (pairs_.size() >= kFewestPairs) {
     source_.reset();  // with all the memory that it has
+    return_free_memory();
     return {};
   }
   const std::string found = std::to_string(std::exchange(pairs_, {}).size());

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <unistd.h>
 
 namespace darkling {
@@ -35,6 +36,12 @@ std::optional<std::int64_t> read_rss_bytes() {
     return std::nullopt;
   }
   return resident_pages * sysconf(_SC_PAGESIZE);
+}
+
+void return_free_memory() {
+#ifdef __GLIBC__
+  static_cast<void>(malloc_trim(0));
+#endif
 }
 
 }  // namespace darkling
