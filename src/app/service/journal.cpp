@@ -28,7 +28,7 @@ class PriorityFlag final : public spdlog::custom_flag_formatter {
 };
 
 spdlog::logger& journal() {
-  static const std::shared_ptr<spdlog::logger> logger = [] {
+  static const std::shared_ptr<spdlog::logger> kLogger = [] {
     auto made = std::make_shared<spdlog::logger>("darklingd",
                                                  std::make_shared<spdlog::sinks::stderr_sink_mt>());
     auto formatter = std::make_unique<spdlog::pattern_formatter>();
@@ -41,7 +41,7 @@ spdlog::logger& journal() {
     made->flush_on(spdlog::level::info);
     return made;
   }();
-  return *logger;
+  return *kLogger;
 }
 
 }  // namespace
