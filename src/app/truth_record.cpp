@@ -26,9 +26,9 @@ truth_t to_truth_record(const Trajectory& truth) {
   record.poses.reserve(truth.poses.size());
   for (const TimedPose& pose : truth.poses) {
     record.keys.push_back(to_ns(pose.stamp));
-    std::vector<double> rows;
-    for (int i = 0; i < 12; ++i) rows.push_back(pose.T_world_pose(i / 4, i % 4));
-    record.poses.push_back(std::move(rows));
+    std::vector<double>& rows = record.poses.emplace_back(12);
+    for (int i = 0; i < 12; ++i)
+      rows[static_cast<std::size_t>(i)] = pose.T_world_pose(i / 4, i % 4);
   }
   return record;
 }
