@@ -13,9 +13,9 @@ namespace {
 
 constexpr Duration kWait = std::chrono::milliseconds(100);
 constexpr Duration kOpening = std::chrono::seconds(10);  // a USB camera may take seconds
-// A lost camera is looked for at once, then less and less often.
+// A lost camera is looked for soon, then less often; but one that is back is to track within 2 s.
 constexpr Duration kFirstBackOff = std::chrono::milliseconds(500);
-constexpr Duration kLastBackOff = std::chrono::seconds(5);
+constexpr Duration kLastBackOff = std::chrono::milliseconds(1500);
 
 std::string describe_loss(const FrameSource& source) {
   std::string text = "the camera went away";

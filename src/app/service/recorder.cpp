@@ -34,7 +34,7 @@ ImageView<const std::uint8_t> copy(ImageView<const std::uint8_t> image,
 
 // "20260131-235959", UTC.
 std::string time_for_a_name() {
-  const std::time_t now = to_ns(read_epoch_clock()) / 1'000'000'000;
+  const auto now = static_cast<std::time_t>(to_ns(read_epoch_clock()) / 1'000'000'000);
   std::tm utc = {};
   gmtime_r(&now, &utc);
   char text[32];
