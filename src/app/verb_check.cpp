@@ -10,6 +10,7 @@
 
 #include "app/check_cameras.h"
 #include "app/check_system.h"
+#include "app/service/config_words.h"
 #include "app/verb.h"
 #include "base/image_size.h"
 #include "base/text_file.h"
@@ -28,8 +29,7 @@ namespace {
 struct CheckWords {
   std::string source;
   std::string size;
-  std::string config_path;
-  std::vector<std::string> settings;
+  ConfigWords config;
   std::string width;
   bool is_memory_wanted = false;
 };
@@ -37,10 +37,9 @@ struct CheckWords {
 constexpr double kMiB = 1024.0 * 1024.0;
 
 Result<Config> read_config(const CheckWords& words) {
-  std::vector<ConfigSetting> settings;
-  for (const std::string& text : words.settings) settings.push_back({"--set", text});
+  std::vector<ConfigSetting> settings = words.config.settings();
   if (!words.width.empty()) settings.push_back({"--width", "width_px=" + words.width});
-  return load_config(words.config_path, settings);
+  return load_config(words.config.path, settings);
 }
 
 // Of the thumbnail; nothing: not known.
@@ -137,7 +136,7 @@ Result<int> run(const CheckWords& words) {
     return finish_without_config(config.error());
   }
   CheckRows rows;
-  rows.ok("configuration", words.config_path.empty() ? "defaults" : words.config_path);
+  rows.ok("configuration", words.config.path.empty() ? "defaults" : words.config.path);
   const CheckedEyes eyes = check_cameras(*config, words.source, rows);
   const std::optional<StereoRig> rig = *typed_size ? std::nullopt : eyes.rig;
   const Thumbnail size = *typed_size ? *typed_size : choose_thumbnail(config->odometry, rig);
@@ -189,13 +188,7 @@ VerbAction declare_check(CLI::App& command) {
   command.add_flag("--memory", words->is_memory_wanted, "List every buffer and its size");
   command.add_option("--size", words->size, "Of the thumbnail, in place of a SOURCE")
       ->type_name("WxH");
-  command.add_option("--config", words->config_path, "Configuration file (YAML)")
-      ->type_name("FILE");
-  command.add_option("--set", words->settings, "One key of the configuration; repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  declare_config_options(command, words->config);
   command.add_option("--width", words->width, "Thumbnail width, height follows; 0: the source's")
       ->type_name("PX");
   command.footer(kMore);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/record.h"
+#include "app/service/config_words.h"
 #include "app/verb.h"
 #include "base/number_text.h"
 
@@ -15,7 +16,7 @@ namespace {
 // What was typed.
 struct RecordWords {
   RecordOptions options;
-  std::vector<std::string> settings;
+  ConfigWords config;
   std::optional<double> for_s;
 };
 
@@ -34,7 +35,8 @@ Result<int> run(const RecordWords& words) {
     return failure(ExitCode::kUsage, "--frames: found " + std::to_string(*options.frame_count) +
                                          ", allowed is 1 and more");
   }
-  for (const std::string& text : words.settings) options.settings.push_back({"--set", text});
+  options.config_path = words.config.path;
+  options.settings = words.config.settings();
   return record(options);
 }
 
@@ -61,13 +63,7 @@ VerbAction declare_record(CLI::App& command) {
   command.add_option("OUT", options.output, "The frame log to write")
       ->required()
       ->type_name("FILE.lcmlog");
-  command.add_option("--config", options.config_path, "Configuration file (YAML)")
-      ->type_name("FILE");
-  command.add_option("--set", words->settings, "One key of the configuration; repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  declare_config_options(command, words->config);
   command.add_option("--for", words->for_s, "Stop after so long from the first pair on")
       ->type_name("SECONDS");
   command.add_option("--frames", options.frame_count, "Stop after so many pairs")->type_name("N");

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/replay.h"
+#include "app/service/config_words.h"
 #include "app/verb.h"
 #include "base/nearest.h"
 
@@ -19,8 +20,7 @@ namespace {
 // What was typed.
 struct ReplayWords {
   std::string source;
-  std::string config_path;
-  std::vector<std::string> settings;
+  ConfigWords config;
   std::string width;
   std::string trajectory_path;
   std::string format = "kitti";
@@ -58,13 +58,12 @@ Result<ReplayOptions> understand(const ReplayWords& words) {
     if (!range) return tl::unexpected(range.error());
     frames = *range;
   }
-  std::vector<ConfigSetting> settings;
-  for (const std::string& text : words.settings) settings.push_back({"--set", text});
+  std::vector<ConfigSetting> settings = words.config.settings();
   if (!words.width.empty()) settings.push_back({"--width", "width_px=" + words.width});
   return ReplayOptions{
       .source = words.source,
       .frames = frames,
-      .config_path = words.config_path,
+      .config_path = words.config.path,
       .settings = settings,
       .kernels = words.kernels,
       .truth_path = words.truth_path,
@@ -114,12 +113,7 @@ constexpr const char* kMore =
 void declare_input(CLI::App& command, ReplayWords& words) {
   command.add_option("SOURCE", words.source, "The recording to play")
       ->type_name("FOLDER|FILE.lcmlog|synthetic:SCENE");
-  command.add_option("--config", words.config_path, "Configuration file (YAML)")->type_name("FILE");
-  command.add_option("--set", words.settings, "One key of the configuration; repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  declare_config_options(command, words.config);
   command.add_option("--width", words.width, "Thumbnail width, height follows; 0: the source's")
       ->type_name("PX");
   command.add_option("--frames", words.frames, "Only frames A up to but without B, from 0")

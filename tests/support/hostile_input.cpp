@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/hostile_input.h"
 
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -38,9 +37,11 @@ class MemoryFile {
 };
 
 template <class Message>
-void decode_as(std::span<const std::byte> bytes) {
+bool is_decoded_as(std::span<const std::byte> bytes) {
   Message message = {};
-  if (decode_from(bytes, message)) require(encoded(message).size() == bytes.size(), "it is whole");
+  if (!decode_from(bytes, message)) return false;
+  require(encoded(message).size() == bytes.size(), "it is whole");
+  return true;
 }
 
 unsigned sum_of(const ImageView<const std::uint8_t>& image) {
@@ -53,14 +54,20 @@ unsigned sum_of(const ImageView<const std::uint8_t>& image) {
 
 }  // namespace
 
-void decode_anything(std::span<const std::byte> bytes) {
-  for_each_message([&](const auto& m) { decode_as<std::decay_t<decltype(m)>>(bytes); });
+int decode_anything(std::span<const std::byte> bytes) {
+  int types = 0;
+  for_each_message(
+      [&](const auto& m) { types += is_decoded_as<std::decay_t<decltype(m)>>(bytes) ? 1 : 0; });
+  return types;
 }
 
-void play_anything(std::span<const std::byte> bytes) {
+std::int64_t play_anything(std::span<const std::byte> bytes) {
   const MemoryFile file(bytes);
   auto log = open_frame_log(file.path());
-  if (!log) return require(!log.error().message.empty(), "a refusal has a reason");
+  if (!log) {
+    require(!log.error().message.empty(), "a refusal has a reason");
+    return 0;
+  }
   const auto row_count = static_cast<std::int64_t>(log->rows.size());
   const int width = log->rig.left.width;
   FramelogSource source(std::move(log->events), std::move(log->rows));
@@ -80,6 +87,7 @@ void play_anything(std::span<const std::byte> bytes) {
   const SourceStats stats = source.stats();
   require(stats.delivered + stats.unreadable + stats.wrong_size + stats.unpaired == row_count,
           "every row is told of once");
+  return stats.delivered;
 }
 
 }  // namespace darkling::test

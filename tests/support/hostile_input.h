@@ -4,16 +4,19 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace darkling::test {
 
 // Decodes `bytes` as every type of message.
-void decode_anything(std::span<const std::byte> bytes);
+// @return as how many of them they make sense.
+int decode_anything(std::span<const std::byte> bytes);
 
 // Opens a file of `bytes` as a frame log and plays it to its end, reading every pixel. Throws what
 // breaks the promises of a source: rows whose number does not grow, frames of another size than the
 // rig's.
-void play_anything(std::span<const std::byte> bytes);
+// @return how many frames there were.
+std::int64_t play_anything(std::span<const std::byte> bytes);
 
 }  // namespace darkling::test

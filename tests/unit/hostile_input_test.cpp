@@ -74,9 +74,21 @@ TEST(HostileInput, DoesNotBreakTheMessageDecoders) {
   });
 }
 
-// What is right is played: else the above would be about refusals only.
+// What is right is played and decoded: else the above would be about refusals only.
 TEST(HostileInput, IsToldFromASoundLog) {
-  EXPECT_NO_THROW(play_anything(tiny_log_bytes()));
+  EXPECT_EQ(play_anything(tiny_log_bytes()), kTinyFrames);
+  std::vector<std::byte> empty = tiny_log_bytes();
+  empty.resize(empty.size() / 100);
+  EXPECT_EQ(play_anything(empty), 0);
+}
+
+TEST(HostileInput, IsToldFromASoundMessage) {
+  for_each_message([](const auto& message) {
+    std::vector<std::byte> bytes = encoded(message);
+    EXPECT_EQ(decode_anything(bytes), 1);
+    bytes.pop_back();
+    EXPECT_EQ(decode_anything(bytes), 0);
+  });
 }
 
 }  // namespace

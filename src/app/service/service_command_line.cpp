@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/service/config_words.h"
 #include "app/service/service.h"
 
 namespace darkling {
@@ -49,14 +50,9 @@ int run(int argc, const char* const* argv) {
   app.footer(kMore);
   app.set_version_flag("--version", "darklingd " DARKLING_VERSION);
   ServiceOptions options;
-  std::vector<std::string> settings;
+  ConfigWords config;
   bool is_config_wanted = false;
-  app.add_option("--config", options.config_path, "Configuration file (YAML)")->type_name("FILE");
-  app.add_option("--set", settings, "One key of the configuration; repeatable")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false);
+  declare_config_options(app, config);
   app.add_flag("--print-config", is_config_wanted,
                "Print the configuration that would be used, and stop");
   try {
@@ -66,7 +62,8 @@ int run(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& e) {
     return report({ExitCode::kUsage, std::string(e.what()) + "\nTry: darklingd --help"});
   }
-  for (const std::string& text : settings) options.settings.push_back({"--set", text});
+  options.config_path = config.path;
+  options.settings = config.settings();
   const Result<int> done = is_config_wanted ? print_config(options) : run_service(options);
   return done ? *done : report(done.error());
 }
