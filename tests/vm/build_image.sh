@@ -13,7 +13,7 @@ mirror="${DARKLING_MIRROR:-http://deb.debian.org/debian}"
 here="$(cd "$(dirname "$0")" && pwd)"
 # What the service is linked with, and what the scenarios look with.
 guest_packages=(
-  dbus iproute2 kmod libcamera-ipa libcamera-tools liblcm1
+  dbus iproute2 kmod libcamera-ipa libcamera0.0.3 liblcm1
   libspdlog1.10 libsystemd0 libyaml-cpp0.7 procps systemd systemd-sysv udev v4l-utils
 )
 modules=(virtio_pci virtio_blk ext4 9p 9pnet_virtio vivid uvcvideo)
