@@ -11,7 +11,7 @@ install_service() {
   cp -a "$host/stage/." /
   mkdir -p "$assets" "$results" /etc/darkling
   cp -a "$host/assets/." "$assets"
-  cp -a "$assets/mine" "$assets/wide" /etc/darkling
+  cp -a "$assets"/{mine,wide,square} /etc/darkling
   ldconfig
   systemd-sysusers
   udevadm control --reload

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-readonly build=build/release vm=build/vm guest_limit_s=720
+readonly build=build/release vm=build/vm guest_limit_s=800
 
 usage() {
   cat <<END
@@ -28,8 +28,10 @@ make_assets() {
   "$build/bin/dump_frames" "$vm/mine" "$assets/mine.raw" >"$assets/mine.size"
   # The least size of the kernel's test driver; only the calibration is wanted.
   "$darkling" render corridor "$vm/wide" --force --frames 1 --width 320 --height 180 >/dev/null
+  # Its driver of a camera for libcamera makes multiples of 6.
+  "$darkling" render corridor "$vm/square" --force --frames 1 --width 96 --height 96 >/dev/null
   local name
-  for name in mine wide; do
+  for name in mine wide square; do
     (cd "$vm" && find "$name" -name '*.yaml' -print0 | cpio --quiet -0 -pd "$OLDPWD/$assets")
   done
 }

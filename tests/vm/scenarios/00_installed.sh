@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What was installed is found by systemd, udev and the loader, and the service's user may use cameras.
-check "every library of the service is there" bash -c '! ldd /usr/bin/darklingd | grep "not found"'
+check "every library of the service and of its module is there" \
+  bash -c '! ldd /usr/bin/darklingd /usr/lib/darkling/darkling_libcamera.so | grep "not found"'
 check "systemd finds the unit" systemctl cat darklingd
 check "its user is in the group of cameras" bash -c 'id -nG darkling | grep -qw video'
 check "nodes of cameras belong to that group" \
