@@ -5,7 +5,7 @@
 set -u
 
 readonly host=/mnt/host assets=/opt/vm results=/mnt/host/results
-readonly scenario_limit_s=150
+readonly scenario_limit_s=200
 
 install_service() {
   cp -a "$host/stage/." /
