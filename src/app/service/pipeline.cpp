@@ -66,11 +66,12 @@ Pipeline::~Pipeline() {
   status_.is_stopping = true;
   commands_.reset();
   // The source stops only when it has all its pairs back, so the one who takes them goes later; and
-  // the output goes last, but speaks of the capture thread.
+  // the output goes last, but speaks of the capture thread and of the recorder.
   if (capture_ != nullptr) capture_->stop();
   tracker_.reset();
-  recorder_.reset();
+  if (recorder_ != nullptr) recorder_->stop();
   output_.reset();
+  recorder_.reset();
   capture_.reset();
 }
 
