@@ -94,7 +94,7 @@ void Pipeline::obey(std::int8_t command) {
 }
 
 bool Pipeline::is_over() const {
-  return status_.is_source_over && status_.pairs_in_flight.get() == 0;
+  return status_.is_source_over && status_.pairs_in_flight.load(std::memory_order_acquire) == 0;
 }
 
 }  // namespace darkling
