@@ -12,10 +12,10 @@
 #include "base/camera_config.h"
 #include "base/result.h"
 #include "drivers/camera/camera_stream.h"
-#include "drivers/camera/published_state.h"
 #include "drivers/frame_source.h"
 #include "drivers/pairing/number_pairs.h"
 #include "drivers/pairing/pair_frames.h"
+#include "drivers/published_state.h"
 
 namespace darkling {
 

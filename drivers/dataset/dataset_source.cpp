@@ -13,6 +13,7 @@ Result<void> DatasetSource::start() {
   next_row_ = 0;
   last_stamp_.reset();
   stats_ = {};
+  published_stats_.store(stats_);
   return {};
 }
 
@@ -29,6 +30,7 @@ WaitResult DatasetSource::wait_next(Duration /*timeout*/) {
   stats_.unreadable += fault == FrameFault::kUnreadable ? 1 : 0;
   stats_.wrong_size += fault == FrameFault::kWrongSize ? 1 : 0;
   stats_.unpaired += fault == FrameFault::kUnpaired ? 1 : 0;
+  published_stats_.store(stats_);
   return {.status = WaitStatus::kBadFrame,
           .fault = fault,
           .sequence = row.sequence,
@@ -51,6 +53,7 @@ WaitResult DatasetSource::deliver(const DatasetRow& row, int slot_index) {
   ++stats_.delivered;
   if (last_stamp_ && row.stamp <= *last_stamp_) ++stats_.stamps_not_increasing;
   last_stamp_ = row.stamp;
+  published_stats_.store(stats_);
   const StereoFrame frame{.sequence = row.sequence,
                           .stamp = row.stamp,
                           .left = slot.left.image(),

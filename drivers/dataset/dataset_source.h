@@ -9,6 +9,7 @@
 #include "drivers/dataset/dataset_rows.h"
 #include "drivers/dataset/read_image.h"
 #include "drivers/frame_source.h"
+#include "drivers/published_state.h"
 
 namespace darkling {
 
@@ -25,7 +26,7 @@ class DatasetSource final : public FrameSource {
   Result<void> start() override;
   WaitResult wait_next(Duration timeout) override;
   void stop() override;
-  [[nodiscard]] SourceStats stats() const override { return stats_; }
+  [[nodiscard]] SourceStats stats() const override { return published_stats_.load(); }
 
  private:
   struct Slot {
@@ -44,6 +45,7 @@ class DatasetSource final : public FrameSource {
   std::size_t next_row_ = 0;
   std::optional<FrameTime> last_stamp_;  // of the pair delivered last
   SourceStats stats_;
+  PublishedStats published_stats_;
 };
 
 }  // namespace darkling

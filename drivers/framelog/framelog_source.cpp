@@ -33,6 +33,7 @@ Result<void> FramelogSource::start() {
   next_row_ = 0;
   last_stamp_.reset();
   stats_ = {};
+  published_stats_.store(stats_);
   return {};
 }
 
@@ -50,6 +51,7 @@ WaitResult FramelogSource::wait_next(Duration /*timeout*/) {
   stats_.unreadable += fault == FrameFault::kUnreadable ? 1 : 0;
   stats_.wrong_size += fault == FrameFault::kWrongSize ? 1 : 0;
   stats_.unpaired += fault == FrameFault::kUnpaired ? 1 : 0;
+  published_stats_.store(stats_);
   return {.status = WaitStatus::kBadFrame,
           .fault = fault,
           .sequence = row.sequence,
@@ -67,6 +69,7 @@ WaitResult FramelogSource::deliver(const FrameLogRow& row, int slot_index) {
   ++stats_.delivered;
   if (last_stamp_ && row.stamp <= *last_stamp_) ++stats_.stamps_not_increasing;
   last_stamp_ = row.stamp;
+  published_stats_.store(stats_);
   // The head was understood when the log was opened; behind it lie the two images.
   const auto* left = reinterpret_cast<const std::uint8_t*>(slot.record.data() + kFrameHeadEnd);
   const StereoFrame frame{.sequence = row.sequence,

@@ -8,6 +8,7 @@
 
 #include "drivers/frame_source.h"
 #include "drivers/framelog/frame_log.h"
+#include "drivers/published_state.h"
 
 namespace darkling {
 
@@ -24,7 +25,7 @@ class FramelogSource final : public FrameSource {
   Result<void> start() override;
   WaitResult wait_next(Duration timeout) override;
   void stop() override;
-  [[nodiscard]] SourceStats stats() const override { return stats_; }
+  [[nodiscard]] SourceStats stats() const override { return published_stats_.load(); }
 
  private:
   struct Slot {
@@ -42,6 +43,7 @@ class FramelogSource final : public FrameSource {
   std::size_t next_row_ = 0;
   std::optional<FrameTime> last_stamp_;  // of the pair delivered last
   SourceStats stats_;
+  PublishedStats published_stats_;
 };
 
 }  // namespace darkling

@@ -24,7 +24,7 @@ ImageView<const std::uint8_t> copy(ImageView<const std::uint8_t> image,
 }  // namespace
 
 Result<void> RehearsedSource::start() {
-  delivered_ = 0;
+  delivered_.store(0, std::memory_order_relaxed);
   return pairs_.empty() ? rehearse() : Result<void>();
 }
 
@@ -52,14 +52,15 @@ Result<void> RehearsedSource::rehearse() {
 }
 
 WaitResult RehearsedSource::wait_next(Duration) {
-  if (frames_ > 0 && delivered_ >= frames_) return {.status = WaitStatus::kEndOfSource};
+  const std::int64_t number = delivered_.load(std::memory_order_relaxed);
+  if (frames_ > 0 && number >= frames_) return {.status = WaitStatus::kEndOfSource};
   // 0, 1, …, n-1, n-2, …, 1, 0, 1, …
   const auto period = 2 * (static_cast<std::int64_t>(pairs_.size()) - 1);
-  const std::int64_t phase = delivered_ % period;
+  const std::int64_t phase = number % period;
   StereoFrame frame = pairs_[static_cast<std::size_t>(std::min(phase, period - phase))].frame;
-  frame.sequence = delivered_;
-  frame.stamp = frame_time_from_ns(std::llround(static_cast<double>(delivered_) * 1e9 / rate_hz_));
-  ++delivered_;
+  frame.sequence = number;
+  frame.stamp = frame_time_from_ns(std::llround(static_cast<double>(number) * 1e9 / rate_hz_));
+  delivered_.store(number + 1, std::memory_order_relaxed);
   WaitResult result;
   result.status = WaitStatus::kFrame;
   // Nothing is given back: the pixels are never written again.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -22,7 +23,9 @@ class RehearsedSource final : public FrameSource {
   Result<void> start() override;
   WaitResult wait_next(Duration timeout) override;
   void stop() override {}  // what was learned by heart stays
-  [[nodiscard]] SourceStats stats() const override { return {.delivered = delivered_}; }
+  [[nodiscard]] SourceStats stats() const override {
+    return {.delivered = delivered_.load(std::memory_order_relaxed)};
+  }
 
  private:
   struct Pair {
@@ -36,7 +39,8 @@ class RehearsedSource final : public FrameSource {
   double rate_hz_;
   std::int64_t frames_;
   std::vector<Pair> pairs_;
-  std::int64_t delivered_ = 0;
+  // Written by the thread that waits for frames, read by any.
+  std::atomic<std::int64_t> delivered_ = 0;
 };
 
 }  // namespace darkling

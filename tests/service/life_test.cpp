@@ -10,13 +10,11 @@
 namespace darkling {
 namespace {
 
+using test::kPatience;
 using test::milliseconds;
 using test::seconds;
 using test::ServiceProcess;
 using ::testing::HasSubstr;
-
-// Generous: several tests share the machine.
-constexpr auto kPatience = seconds(20);
 
 TEST(Service, SaysWhenItIsReadyAndWhatItDoes) {
   ServiceProcess service;

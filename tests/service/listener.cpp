@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service/listener.h"
 
+#include <array>
 #include <atomic>
+#include <span>
 #include <stdexcept>
 
 #include <lcm/lcm-cpp.hpp>
 #include <unistd.h>
+
+#include "messages/channels.h"
+#include "messages/command_t.hpp"
+#include "messages/hint_t.hpp"
+#include "messages/wire.h"
+#include "platform/clocks.h"
 
 namespace darkling::test {
 
@@ -73,6 +81,23 @@ bool Listener::wait_until(const std::function<bool(const Heard&)>& is_so,
 
 void Listener::send(const std::string& channel, const void* bytes, std::size_t size) {
   network_->lcm.publish(channel, bytes, static_cast<unsigned>(size));
+}
+
+void Listener::send_command(std::int8_t command) {
+  command_t message = {};
+  message.command = command;
+  std::array<std::byte, 64> bytes;
+  send(kCommandChannel, bytes.data(), encode_into(std::span(bytes), message));
+}
+
+void Listener::send_hint() {
+  hint_t message = {};
+  message.utime_to = to_ns(read_epoch_clock()) / 1000;
+  message.utime_from = message.utime_to - 50'000;
+  message.rotation[0] = 1.0;
+  message.valid_for_ms = 1000;
+  std::array<std::byte, 128> bytes;
+  send(kHintChannel, bytes.data(), encode_into(std::span(bytes), message));
 }
 
 }  // namespace darkling::test

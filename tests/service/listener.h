@@ -39,6 +39,10 @@ class Listener {
   [[nodiscard]] bool wait_until(const std::function<bool(const Heard&)>& is_so,
                                 std::chrono::milliseconds timeout) const;
   void send(const std::string& channel, const void* bytes, std::size_t size);
+  // @param command  one of command_t::COMMAND_*.
+  void send_command(std::int8_t command);
+  // That nothing moved in the last 50 ms.
+  void send_hint();
 
  private:
   struct Network;

@@ -21,11 +21,10 @@ namespace darkling {
 namespace {
 
 using test::Heard;
+using test::kPatience;
 using test::seconds;
 using test::ServiceProcess;
 using ::testing::HasSubstr;
-
-constexpr auto kPatience = seconds(20);
 
 std::vector<std::string> logs_in(const std::string& folder, const std::string& start) {
   std::vector<std::string> paths;
@@ -113,12 +112,8 @@ TEST(BlackBox, IsWrittenWhenAsked) {
   ServiceProcess service({"record_to=" + folder.path(), "black_box_s=1"});
   ASSERT_TRUE(service.listener().wait_until(
       [](const Heard& heard) { return heard.poses.size() >= 30; }, kPatience));
-  command_t command = {};
-  command.command = command_t::COMMAND_WRITE_BLACK_BOX;
-  std::array<std::uint8_t, 64> bytes;
-  const int size = command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
   for (int i = 0; i < 50 && logs_in(folder.path(), "blackbox-").empty(); ++i) {
-    service.listener().send("VO_COMMAND", bytes.data(), static_cast<std::size_t>(size));
+    service.listener().send_command(command_t::COMMAND_WRITE_BLACK_BOX);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   service.send_signal(SIGTERM);

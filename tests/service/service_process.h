@@ -7,6 +7,7 @@
 
 #include "service/listener.h"
 #include "service/notify_socket.h"
+#include "service/patience.h"
 #include "support/run_program.h"
 
 namespace darkling::test {
@@ -29,7 +30,7 @@ class ServiceProcess {
   void send_signal(int signal_number) const { program_.send_signal(signal_number); }
   [[nodiscard]] ProgramResult wait() { return program_.wait(); }
   // @return the first status after now that has this state, or nothing in time.
-  [[nodiscard]] bool reaches(std::int8_t state, milliseconds timeout = seconds(20)) const;
+  [[nodiscard]] bool reaches(std::int8_t state, milliseconds timeout = kPatience) const;
 
  private:
   std::string url_ = new_lcm_url();

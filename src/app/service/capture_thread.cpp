@@ -82,7 +82,7 @@ bool CaptureThread::open() {
 void CaptureThread::close() {
   PipelineStatus& status = links_.status;
   status.is_camera_open = false;
-  while (status.pairs_in_flight.get() > 0) {
+  while (status.pairs_in_flight.load(std::memory_order_acquire) > 0) {
     links_.tracker.notify();
     status.capture_heartbeat.beat();
     static_cast<void>(sleep_until(read_monotonic_clock() + std::chrono::milliseconds(1)));
@@ -103,9 +103,9 @@ void CaptureThread::capture() {
     if (next.status == WaitStatus::kDeviceLost) return note(describe_loss(links_.source));
     if (next.status != WaitStatus::kFrame && next.status != WaitStatus::kBadFrame) continue;
     status.pairs_in.add();
-    status.pairs_in_flight.add();
+    status.pairs_in_flight.fetch_add(1, std::memory_order_relaxed);
     if (!links_.pairs.try_push(std::move(next))) {
-      status.pairs_in_flight.add(-1);
+      status.pairs_in_flight.fetch_sub(1, std::memory_order_relaxed);
       status.pairs_refused.add();
     }
     links_.tracker.notify();

@@ -43,7 +43,7 @@ void OdometryThread::serve(int cpu) {
     track(*pair);
     last_stamp_ = stamp;
     pair.reset();
-    status.pairs_in_flight.add(-1 - skipped);
+    status.pairs_in_flight.fetch_sub(1 + skipped, std::memory_order_release);
     status.refinement_overruns.set(links_.odometry.refinement_overruns());
     if (heap_calls_before) status.heap_calls.set(*count_heap_calls() - *heap_calls_before);
   }

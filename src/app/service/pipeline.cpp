@@ -66,11 +66,12 @@ Pipeline::~Pipeline() {
   status_.is_stopping = true;
   commands_.reset();
   // The source stops only when it has all its pairs back, so the one who takes them goes later; and
-  // the output goes last, but speaks of the capture thread.
+  // the output goes last, but speaks of the capture thread and of the recorder.
   if (capture_ != nullptr) capture_->stop();
   tracker_.reset();
-  recorder_.reset();
+  if (recorder_ != nullptr) recorder_->stop();
   output_.reset();
+  recorder_.reset();
   capture_.reset();
 }
 
@@ -93,7 +94,7 @@ void Pipeline::obey(std::int8_t command) {
 }
 
 bool Pipeline::is_over() const {
-  return status_.is_source_over && status_.pairs_in_flight.get() == 0;
+  return status_.is_source_over && status_.pairs_in_flight.load(std::memory_order_acquire) == 0;
 }
 
 }  // namespace darkling

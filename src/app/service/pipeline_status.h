@@ -74,8 +74,9 @@ struct PipelineStatus {
   }
 
   // Pairs that were handed over and not given back yet: a source is stopped only when there is
-  // none.
-  Count pairs_in_flight;
+  // none. Given back with release and looked at with acquire, so that who finds none also finds
+  // every lease ended.
+  std::atomic<std::int64_t> pairs_in_flight = 0;
 };
 
 // One estimate on its way out.

@@ -61,9 +61,13 @@ Recorder::Recorder(const Config& config, const StereoRig& rig, const std::string
 }
 
 Recorder::~Recorder() {
+  stop();
+}
+
+void Recorder::stop() {
   is_stopping_ = true;
   wake_.notify();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Recorder::start_recording() {

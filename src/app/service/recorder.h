@@ -26,10 +26,13 @@ class Recorder final : public PairObserver {
   // @param rig  with which the pairs are taken.
   // @pre config.service.record_to is not empty.
   Recorder(const Config& config, const StereoRig& rig, const std::string& source);
-  // Writes what is waiting.
   ~Recorder() override;
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
+
+  // Writes what is waiting and closes the log; what was recorded can still be asked for. @pre no
+  // pair comes any more.
+  void stop();
 
   // Thread of the next two: that of the odometry. No heap call.
   void on_pair(const WaitResult& pair, const Estimate& estimate) override;

@@ -16,16 +16,16 @@ class PublishedStats {
   void store(const SourceStats& stats) {
     delivered_.store(stats.delivered, kRelaxed);
     unreadable_.store(stats.unreadable, kRelaxed);
+    wrong_size_.store(stats.wrong_size, kRelaxed);
     unpaired_.store(stats.unpaired, kRelaxed);
     stamps_not_increasing_.store(stats.stamps_not_increasing, kRelaxed);
     dropped_by_device_.store(stats.dropped_by_device, kRelaxed);
     device_errors_.store(stats.device_errors, kRelaxed);
   }
-  // A live camera's images are of the size that was negotiated, never of another.
   [[nodiscard]] SourceStats load() const {
     return {.delivered = delivered_.load(kRelaxed),
             .unreadable = unreadable_.load(kRelaxed),
-            .wrong_size = 0,
+            .wrong_size = wrong_size_.load(kRelaxed),
             .unpaired = unpaired_.load(kRelaxed),
             .stamps_not_increasing = stamps_not_increasing_.load(kRelaxed),
             .dropped_by_device = dropped_by_device_.load(kRelaxed),
@@ -37,6 +37,7 @@ class PublishedStats {
 
   std::atomic<std::int64_t> delivered_ = 0;
   std::atomic<std::int64_t> unreadable_ = 0;
+  std::atomic<std::int64_t> wrong_size_ = 0;
   std::atomic<std::int64_t> unpaired_ = 0;
   std::atomic<std::int64_t> stamps_not_increasing_ = 0;
   std::atomic<std::int64_t> dropped_by_device_ = 0;
