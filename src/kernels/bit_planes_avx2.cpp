@@ -50,8 +50,8 @@ void blur_row(const BlurRow& row) {
 }
 
 // Grey levels with the top bit flipped, for a comparison that knows only signed bytes.
-__m256i load_signed(const std::uint8_t* from) {
-  return _mm256_xor_si256(load(from), _mm256_set1_epi8(-128));
+__m256i as_signed(__m256i levels) {
+  return _mm256_xor_si256(levels, _mm256_set1_epi8(-128));
 }
 
 // Moves the codes one bit down and puts the next neighbour's bit on top. A rounded average with a
@@ -60,12 +60,21 @@ void census_32(const CensusRow& row, int x) {
   const std::uint8_t* const neighbours[kPlaneCount] = {
       row.above + x - 1, row.above + x,     row.above + x + 1, row.here + x - 1,
       row.here + x + 1,  row.below + x - 1, row.below + x,     row.below + x + 1};
-  const __m256i centre = load_signed(row.here + x);
-  __m256i codes = _mm256_setzero_si256();
+  const __m256i centre = load(row.here + x);
+  const __m256i dead_zone = _mm256_set1_epi8(static_cast<char>(row.dead_zone));
+  const __m256i high = as_signed(_mm256_adds_epu8(centre, dead_zone));
+  const __m256i low = as_signed(_mm256_subs_epu8(centre, dead_zone));
+  __m256i brighter = _mm256_setzero_si256();
+  __m256i above_low = _mm256_setzero_si256();
   for (const std::uint8_t* neighbour : neighbours) {
-    codes = _mm256_avg_epu8(codes, _mm256_cmpgt_epi8(load_signed(neighbour), centre));
+    const __m256i level = as_signed(load(neighbour));
+    brighter = _mm256_avg_epu8(brighter, _mm256_cmpgt_epi8(level, high));
+    above_low = _mm256_avg_epu8(above_low, _mm256_cmpgt_epi8(level, low));
   }
-  store(row.codes + x, codes);
+  store(row.brighter + x, brighter);
+  // Nothing is darker than black by the dead zone.
+  const __m256i has_darker = _mm256_cmpeq_epi8(_mm256_max_epu8(centre, dead_zone), centre);
+  store(row.darker + x, _mm256_andnot_si256(above_low, has_darker));
 }
 
 void census_row(const CensusRow& row) {
@@ -77,22 +86,29 @@ __m256i smooth(__m256i before, __m256i here, __m256i after) {
   return _mm256_avg_epu8(_mm256_avg_epu8(before, after), here);
 }
 
-// Four pixels' codes as 32 bytes of 0 or 255.
-__m256i spread(const std::uint8_t* codes) {
+// The bits of four pixels' codes, each in a byte of its own, all others of which are zero.
+__m256i bits_of(const std::uint8_t* codes) {
   const __m256i pixel = _mm256_setr_epi8(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2,
                                          2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3);
   const __m256i bit = _mm256_set1_epi64x(static_cast<long long>(0x8040'2010'0804'0201ULL));
   std::int32_t four = 0;
   __builtin_memcpy(&four, codes, sizeof(four));
-  const __m256i replicated = _mm256_shuffle_epi8(_mm256_set1_epi32(four), pixel);
-  return _mm256_cmpeq_epi8(_mm256_and_si256(replicated, bit), bit);
+  return _mm256_and_si256(_mm256_shuffle_epi8(_mm256_set1_epi32(four), pixel), bit);
+}
+
+// Four pixels' planes: 255 brighter, 0 darker, 128 neither.
+__m256i spread(const std::uint8_t* brighter, const std::uint8_t* darker) {
+  const __m256i zero = _mm256_setzero_si256();
+  const __m256i is_not_brighter = _mm256_cmpeq_epi8(bits_of(brighter), zero);
+  const __m256i is_not_darker = _mm256_cmpeq_epi8(bits_of(darker), zero);
+  return _mm256_avg_epu8(_mm256_xor_si256(is_not_brighter, _mm256_set1_epi8(-1)), is_not_darker);
 }
 
 void smooth_down_row(const DownRow& row) {
   const DownRow local = row;
   for (int x = 0; x < local.width; x += 4) {
     const int i = x * kPlaneCount;
-    __m256i m = spread(local.codes + x);
+    __m256i m = spread(local.brighter + x, local.darker + x);
     for (int pass = 0; pass < 3; ++pass) {
       const __m256i out = smooth(load(local.older[pass] + i), load(local.newer[pass] + i), m);
       store(local.older[pass] + i, m);
@@ -138,9 +154,10 @@ void smooth_along_row(const AlongRow& row) {
 
 }  // namespace
 
-void bit_planes_avx2(ImageView<const std::uint8_t> grey, ImageView<std::uint8_t> codes,
-                     std::span<std::uint8_t> scratch, ImageView<std::uint8_t> planes) {
-  bit_planes_by_rows(grey, codes, scratch, planes,
+void bit_planes_avx2(ImageView<const std::uint8_t> grey, int dead_zone,
+                     ImageView<std::uint8_t> codes, std::span<std::uint8_t> scratch,
+                     ImageView<std::uint8_t> planes) {
+  bit_planes_by_rows(grey, dead_zone, codes, scratch, planes,
                      {blur_row, census_row, smooth_down_row, smooth_along_row});
 }
 

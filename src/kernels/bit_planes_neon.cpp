@@ -60,11 +60,18 @@ void census_16(const CensusRow& row, int x) {
       row.above + x - 1, row.above + x,     row.above + x + 1, row.here + x - 1,
       row.here + x + 1,  row.below + x - 1, row.below + x,     row.below + x + 1};
   const uint8x16_t centre = vld1q_u8(row.here + x);
-  uint8x16_t codes = vdupq_n_u8(0);
+  const uint8x16_t high = vqaddq_u8(centre, vdupq_n_u8(row.dead_zone));
+  const uint8x16_t low = vqsubq_u8(centre, vdupq_n_u8(row.dead_zone));
+  uint8x16_t brighter = vdupq_n_u8(0);
+  uint8x16_t above_low = vdupq_n_u8(0);
   for (const std::uint8_t* neighbour : neighbours) {
-    codes = vrhaddq_u8(codes, vcgtq_u8(vld1q_u8(neighbour), centre));
+    const uint8x16_t level = vld1q_u8(neighbour);
+    brighter = vrhaddq_u8(brighter, vcgtq_u8(level, high));
+    above_low = vrhaddq_u8(above_low, vcgtq_u8(level, low));
   }
-  vst1q_u8(row.codes + x, codes);
+  vst1q_u8(row.brighter + x, brighter);
+  // Nothing is darker than black by the dead zone.
+  vst1q_u8(row.darker + x, vbicq_u8(vcgeq_u8(centre, vdupq_n_u8(row.dead_zone)), above_low));
 }
 
 void census_row(const CensusRow& row) {
@@ -77,16 +84,21 @@ uint8x16_t smooth(uint8x16_t before, uint8x16_t here, uint8x16_t after) {
 }
 
 // Two pixels' codes as 16 bytes of 0 or 255.
-uint8x16_t spread(const std::uint8_t* codes) {
+uint8x16_t spread_bits(const std::uint8_t* codes) {
   const uint8x8_t bit = vcreate_u8(0x8040'2010'0804'0201ULL);
   return vtstq_u8(vcombine_u8(vld1_dup_u8(codes), vld1_dup_u8(codes + 1)), vcombine_u8(bit, bit));
+}
+
+// Two pixels' planes: 255 brighter, 0 darker, 128 neither.
+uint8x16_t spread(const std::uint8_t* brighter, const std::uint8_t* darker) {
+  return vrhaddq_u8(spread_bits(brighter), vmvnq_u8(spread_bits(darker)));
 }
 
 void smooth_down_row(const DownRow& row) {
   const DownRow local = row;
   for (int x = 0; x < local.width; x += 2) {
     const int i = x * kPlaneCount;
-    uint8x16_t m = spread(local.codes + x);
+    uint8x16_t m = spread(local.brighter + x, local.darker + x);
     for (int pass = 0; pass < 3; ++pass) {
       const uint8x16_t out =
           smooth(vld1q_u8(local.older[pass] + i), vld1q_u8(local.newer[pass] + i), m);
@@ -130,9 +142,10 @@ void smooth_along_row(const AlongRow& row) {
 
 }  // namespace
 
-void bit_planes_neon(ImageView<const std::uint8_t> grey, ImageView<std::uint8_t> codes,
-                     std::span<std::uint8_t> scratch, ImageView<std::uint8_t> planes) {
-  bit_planes_by_rows(grey, codes, scratch, planes,
+void bit_planes_neon(ImageView<const std::uint8_t> grey, int dead_zone,
+                     ImageView<std::uint8_t> codes, std::span<std::uint8_t> scratch,
+                     ImageView<std::uint8_t> planes) {
+  bit_planes_by_rows(grey, dead_zone, codes, scratch, planes,
                      {blur_row, census_row, smooth_down_row, smooth_along_row});
 }
 

@@ -30,19 +30,31 @@ void blur_row(const BlurRow& row) {
 }
 
 // One byte-wide term a neighbour: so written, the loop over it compiles to vectors.
-std::uint8_t bit(std::uint8_t neighbour, std::uint8_t centre, int index) {
-  return static_cast<std::uint8_t>(neighbour > centre ? 1 << index : 0);
+std::uint8_t bit(std::uint8_t neighbour, std::uint8_t level, int index) {
+  return static_cast<std::uint8_t>(neighbour > level ? 1 << index : 0);
 }
 
 void census_row(const CensusRow& row) {
   const CensusRow local = row;
-  std::uint8_t* __restrict codes = row.codes;
+  std::uint8_t* __restrict brighter = row.brighter;
+  std::uint8_t* __restrict darker = row.darker;
   for (int x = 0; x < local.width; ++x) {
-    const std::uint8_t c = local.here[x];
-    codes[x] = bit(local.above[x - 1], c, 0) | bit(local.above[x], c, 1) |
-               bit(local.above[x + 1], c, 2) | bit(local.here[x - 1], c, 3) |
-               bit(local.here[x + 1], c, 4) | bit(local.below[x - 1], c, 5) |
-               bit(local.below[x], c, 6) | bit(local.below[x + 1], c, 7);
+    const int c = local.here[x];
+    const auto high = static_cast<std::uint8_t>(std::min(c + local.dead_zone, 255));
+    brighter[x] = bit(local.above[x - 1], high, 0) | bit(local.above[x], high, 1) |
+                  bit(local.above[x + 1], high, 2) | bit(local.here[x - 1], high, 3) |
+                  bit(local.here[x + 1], high, 4) | bit(local.below[x - 1], high, 5) |
+                  bit(local.below[x], high, 6) | bit(local.below[x + 1], high, 7);
+    if (c < local.dead_zone) {
+      darker[x] = 0;
+      continue;
+    }
+    const auto low = static_cast<std::uint8_t>(c - local.dead_zone);
+    darker[x] = static_cast<std::uint8_t>(
+        ~(bit(local.above[x - 1], low, 0) | bit(local.above[x], low, 1) |
+          bit(local.above[x + 1], low, 2) | bit(local.here[x - 1], low, 3) |
+          bit(local.here[x + 1], low, 4) | bit(local.below[x - 1], low, 5) |
+          bit(local.below[x], low, 6) | bit(local.below[x + 1], low, 7)));
   }
 }
 
@@ -59,11 +71,21 @@ struct SpreadTable {
 };
 constexpr SpreadTable kSpread;
 
+// 255 brighter, 0 darker, 128 neither.
+void spread(const std::uint8_t* brighter, const std::uint8_t* darker, int width,
+            std::uint8_t* planes) {
+  for (int x = 0; x < width; ++x) {
+    const std::uint8_t* high = kSpread.bytes[brighter[x]];
+    const std::uint8_t* low = kSpread.bytes[darker[x]];
+    for (int c = 0; c < kPlaneCount; ++c) {
+      planes[x * kPlaneCount + c] = average(high[c], static_cast<std::uint8_t>(~low[c]));
+    }
+  }
+}
+
 void smooth_down_row(const DownRow& row) {
   const int width = row.width;  // a byte that is written might have been part of it
-  for (int x = 0; x < width; ++x) {
-    std::memcpy(row.out + x * kPlaneCount, kSpread.bytes[row.codes[x]], kPlaneCount);
-  }
+  spread(row.brighter, row.darker, width, row.out);
   for (int pass = 0; pass < kPasses; ++pass) {
     std::uint8_t* __restrict out = row.out;
     std::uint8_t* __restrict older = row.older[pass];
@@ -136,18 +158,20 @@ class SmoothedPlanes {
     for (std::uint8_t*& row : newer_) row = scratch.take(kPlaneCount);
   }
 
-  // The first row; those above it count as equal.
-  void start(const std::uint8_t* codes) {
-    for (int x = 0; x < width_; ++x) {
-      std::memcpy(in_ + x * kPlaneCount, kSpread.bytes[codes[x]], kPlaneCount);
-    }
+  // The first row of codes; those above it count as equal.
+  void start(const std::uint8_t* brighter, const std::uint8_t* darker) {
+    spread(brighter, darker, width_, in_);
     for (std::uint8_t* row : older_) std::memcpy(row, in_, width_ * kPlaneCount);
     for (std::uint8_t* row : newer_) std::memcpy(row, in_, width_ * kPlaneCount);
   }
 
-  void push(const std::uint8_t* codes) {
-    rows_.smooth_down(
-        {codes, {older_[0], older_[1], older_[2]}, {newer_[0], newer_[1], newer_[2]}, in_, width_});
+  void push(const std::uint8_t* brighter, const std::uint8_t* darker) {
+    rows_.smooth_down({brighter,
+                       darker,
+                       {older_[0], older_[1], older_[2]},
+                       {newer_[0], newer_[1], newer_[2]},
+                       in_,
+                       width_});
     for (int pass = 0; pass < kPasses; ++pass) std::swap(older_[pass], newer_[pass]);
   }
 
@@ -186,11 +210,12 @@ void smooth_along_bytes(const std::uint8_t* in, std::uint8_t* out, int first, in
   }
 }
 
-void bit_planes_by_rows(const ImageView<const std::uint8_t>& grey,
+void bit_planes_by_rows(const ImageView<const std::uint8_t>& grey, int dead_zone,
                         const ImageView<std::uint8_t>& codes,
                         const std::span<std::uint8_t>& scratch,
                         const ImageView<std::uint8_t>& planes, const BitPlanesRows& rows) {
   CHECK(!grey.is_empty(), "bit-planes need at least one pixel");
+  CHECK(dead_zone >= 0 && dead_zone <= 255, "the dead zone is a grey level");
   CHECK(planes.data == nullptr || planes.has_size(kPlaneCount * grey.width, grey.height),
         "eight bytes of planes a pixel");
   CHECK(codes.data == nullptr || have_same_size(grey, codes), "one census code a pixel");
@@ -199,7 +224,8 @@ void bit_planes_by_rows(const ImageView<const std::uint8_t>& grey,
   const int last = grey.height - 1;
   ScratchRows memory(scratch, width);
   BlurredRows blurred(grey, memory, rows.blur);
-  std::uint8_t* code_row = memory.take(1);
+  std::uint8_t* brighter = memory.take(1);
+  std::uint8_t* darker = memory.take(1);
   SmoothedPlanes smoothed(width, memory, rows);
   blurred.compute(0);
   // Beyond the last row of codes, it stands again.
@@ -207,19 +233,20 @@ void bit_planes_by_rows(const ImageView<const std::uint8_t>& grey,
     if (y <= last) {
       if (y < last) blurred.compute(y + 1);
       rows.census({blurred.at(std::max(y - 1, 0)), blurred.at(y), blurred.at(std::min(y + 1, last)),
-                   code_row, width});
-      if (codes.data != nullptr) std::memcpy(codes.row(y), code_row, width);
+                   brighter, darker, width, static_cast<std::uint8_t>(dead_zone)});
+      if (codes.data != nullptr) std::memcpy(codes.row(y), brighter, width);
     }
     if (planes.data == nullptr) continue;
-    if (y == 0) smoothed.start(code_row);
-    if (y > 0) smoothed.push(code_row);
+    if (y == 0) smoothed.start(brighter, darker);
+    if (y > 0) smoothed.push(brighter, darker);
     if (y >= kPasses) smoothed.finish(planes.row(y - kPasses));
   }
 }
 
-void bit_planes_ref(ImageView<const std::uint8_t> grey, ImageView<std::uint8_t> codes,
-                    std::span<std::uint8_t> scratch, ImageView<std::uint8_t> planes) {
-  bit_planes_by_rows(grey, codes, scratch, planes,
+void bit_planes_ref(ImageView<const std::uint8_t> grey, int dead_zone,
+                    ImageView<std::uint8_t> codes, std::span<std::uint8_t> scratch,
+                    ImageView<std::uint8_t> planes) {
+  bit_planes_by_rows(grey, dead_zone, codes, scratch, planes,
                      {blur_row, census_row, smooth_down_row, smooth_along_row});
 }
 

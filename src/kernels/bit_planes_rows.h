@@ -25,8 +25,10 @@ struct CensusRow {
   const std::uint8_t* above;
   const std::uint8_t* here;
   const std::uint8_t* below;
-  std::uint8_t* codes;
+  std::uint8_t* brighter;
+  std::uint8_t* darker;
   int width;  // px
+  std::uint8_t dead_zone;
 };
 
 // One row through steps 3 and 4, down the columns. Each of the three passes of the smoothing
@@ -34,7 +36,8 @@ struct CensusRow {
 //   out = avg(avg(older, m), newer),  older ← m  (the caller then exchanges the two),
 // which is the row before m, and hands it on to the next. Rows may be written a vector beyond.
 struct DownRow {
-  const std::uint8_t* codes;
+  const std::uint8_t* brighter;  // codes
+  const std::uint8_t* darker;
   std::uint8_t* older[3];
   const std::uint8_t* newer[3];
   std::uint8_t* out;
@@ -58,7 +61,7 @@ struct BitPlanesRows {
 };
 
 // Does what BitPlanesFn promises, by rows.
-void bit_planes_by_rows(const ImageView<const std::uint8_t>& grey,
+void bit_planes_by_rows(const ImageView<const std::uint8_t>& grey, int dead_zone,
                         const ImageView<std::uint8_t>& codes,
                         const std::span<std::uint8_t>& scratch,
                         const ImageView<std::uint8_t>& planes, const BitPlanesRows& rows);

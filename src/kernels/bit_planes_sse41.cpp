@@ -64,8 +64,8 @@ void blur_row(const BlurRow& row) {
 }
 
 // Grey levels with the top bit flipped, for a comparison that knows only signed bytes.
-__m128i load_signed(const std::uint8_t* from) {
-  return _mm_xor_si128(load(from), _mm_set1_epi8(-128));
+__m128i as_signed(__m128i levels) {
+  return _mm_xor_si128(levels, _mm_set1_epi8(-128));
 }
 
 // Moves the codes one bit down and puts the next neighbour's bit on top. A rounded average with a
@@ -74,12 +74,21 @@ void census_16(const CensusRow& row, int x) {
   const std::uint8_t* const neighbours[kPlaneCount] = {
       row.above + x - 1, row.above + x,     row.above + x + 1, row.here + x - 1,
       row.here + x + 1,  row.below + x - 1, row.below + x,     row.below + x + 1};
-  const __m128i centre = load_signed(row.here + x);
-  __m128i codes = _mm_setzero_si128();
+  const __m128i centre = load(row.here + x);
+  const __m128i dead_zone = _mm_set1_epi8(static_cast<char>(row.dead_zone));
+  const __m128i high = as_signed(_mm_adds_epu8(centre, dead_zone));
+  const __m128i low = as_signed(_mm_subs_epu8(centre, dead_zone));
+  __m128i brighter = _mm_setzero_si128();
+  __m128i above_low = _mm_setzero_si128();
   for (const std::uint8_t* neighbour : neighbours) {
-    codes = _mm_avg_epu8(codes, _mm_cmpgt_epi8(load_signed(neighbour), centre));
+    const __m128i level = as_signed(load(neighbour));
+    brighter = _mm_avg_epu8(brighter, _mm_cmpgt_epi8(level, high));
+    above_low = _mm_avg_epu8(above_low, _mm_cmpgt_epi8(level, low));
   }
-  store(row.codes + x, codes);
+  store(row.brighter + x, brighter);
+  // Nothing is darker than black by the dead zone.
+  const __m128i has_darker = _mm_cmpeq_epi8(_mm_max_epu8(centre, dead_zone), centre);
+  store(row.darker + x, _mm_andnot_si128(above_low, has_darker));
 }
 
 void census_row(const CensusRow& row) {
@@ -91,19 +100,26 @@ __m128i smooth(__m128i before, __m128i here, __m128i after) {
   return _mm_avg_epu8(_mm_avg_epu8(before, after), here);
 }
 
-// Two pixels' codes as 16 bytes of 0 or 255.
-__m128i spread(const std::uint8_t* codes) {
+// The bits of two pixels' codes, each in a byte of its own, all others of which are zero.
+__m128i bits_of(const std::uint8_t* codes) {
   const __m128i pixel = _mm_setr_epi8(0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1);
   const __m128i bit = _mm_set1_epi64x(static_cast<long long>(0x8040'2010'0804'0201ULL));
-  const __m128i replicated = _mm_shuffle_epi8(_mm_cvtsi32_si128(codes[0] | codes[1] << 8), pixel);
-  return _mm_cmpeq_epi8(_mm_and_si128(replicated, bit), bit);
+  return _mm_and_si128(_mm_shuffle_epi8(_mm_cvtsi32_si128(codes[0] | codes[1] << 8), pixel), bit);
+}
+
+// Two pixels' planes: 255 brighter, 0 darker, 128 neither.
+__m128i spread(const std::uint8_t* brighter, const std::uint8_t* darker) {
+  const __m128i zero = _mm_setzero_si128();
+  const __m128i is_not_brighter = _mm_cmpeq_epi8(bits_of(brighter), zero);
+  const __m128i is_not_darker = _mm_cmpeq_epi8(bits_of(darker), zero);
+  return _mm_avg_epu8(_mm_xor_si128(is_not_brighter, _mm_set1_epi8(-1)), is_not_darker);
 }
 
 void smooth_down_row(const DownRow& row) {
   const DownRow local = row;
   for (int x = 0; x < local.width; x += 2) {
     const int i = x * kPlaneCount;
-    __m128i m = spread(local.codes + x);
+    __m128i m = spread(local.brighter + x, local.darker + x);
     for (int pass = 0; pass < 3; ++pass) {
       const __m128i out = smooth(load(local.older[pass] + i), load(local.newer[pass] + i), m);
       store(local.older[pass] + i, m);
@@ -146,9 +162,10 @@ void smooth_along_row(const AlongRow& row) {
 
 }  // namespace
 
-void bit_planes_sse41(ImageView<const std::uint8_t> grey, ImageView<std::uint8_t> codes,
-                      std::span<std::uint8_t> scratch, ImageView<std::uint8_t> planes) {
-  bit_planes_by_rows(grey, codes, scratch, planes,
+void bit_planes_sse41(ImageView<const std::uint8_t> grey, int dead_zone,
+                      ImageView<std::uint8_t> codes, std::span<std::uint8_t> scratch,
+                      ImageView<std::uint8_t> planes) {
+  bit_planes_by_rows(grey, dead_zone, codes, scratch, planes,
                      {blur_row, census_row, smooth_down_row, smooth_along_row});
 }
 

@@ -84,8 +84,8 @@ struct KernelCost {
 // its bit. Planes: a bit picked out and spread, eight times. Smoothing: six times two averages of
 // eight planes.
 [[nodiscard]] constexpr KernelCost bit_planes_cost(bool has_codes, bool has_planes) {
-  const double codes = 2.0 * 8 + 2.0 * 8;
-  const double planes = 2.0 * kPlaneCount + 6.0 * 2 * kPlaneCount;
+  const double codes = 2.0 * 8 + 4.0 * 8;
+  const double planes = 5.0 * kPlaneCount + 6.0 * 2 * kPlaneCount;
   return {1.0 + (has_codes ? 1.0 : 0.0) + (has_planes ? kPlaneCount : 0.0),
           codes + (has_planes ? planes : 0.0), 0.0};
 }

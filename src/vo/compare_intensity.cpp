@@ -46,9 +46,10 @@ KernelTable compare_intensity(const KernelTable& kernels) {
   return table;
 }
 
-void intensity_planes(ImageView<const std::uint8_t> grey, ImageView<std::uint8_t> codes,
-                      std::span<std::uint8_t> scratch, ImageView<std::uint8_t> planes) {
-  if (!codes.is_empty()) bit_planes_ref(grey, codes, scratch, {});
+void intensity_planes(ImageView<const std::uint8_t> grey, int dead_zone,
+                      ImageView<std::uint8_t> codes, std::span<std::uint8_t> scratch,
+                      ImageView<std::uint8_t> planes) {
+  if (!codes.is_empty()) bit_planes_ref(grey, dead_zone, codes, scratch, {});
   if (planes.is_empty()) return;
   CHECK(planes.has_size(kPlaneCount * grey.width, grey.height), "eight bytes of planes a pixel");
   CHECK(grey.width <= kMaxWidth, "a row fits kMaxWidth");

@@ -6,6 +6,7 @@
 
 #include "geometry/frames.h"
 #include "kernels/bit_planes.h"
+#include "vo/estimate_noise.h"
 
 namespace darkling {
 
@@ -55,15 +56,19 @@ std::span<std::uint8_t> allocate_plane_scratch(const RectifiedRig& rig, Arena& a
 }
 
 void build_pyramid(const KernelTable& kernels, FramePyramid& pyramid) {
+  double noise = estimate_noise(pyramid[0].grey);
+  pyramid[0].dead_zone = dead_zone_of(noise);
   for (int l = 1; l < static_cast<int>(pyramid.size()); ++l) {
     kernels.halve(pyramid[l - 1].grey, pyramid[l].grey);
+    noise *= 0.5;  // four pixels of independent noise in one
+    pyramid[l].dead_zone = dead_zone_of(noise);
   }
 }
 
 void compute_planes(const KernelTable& kernels, std::span<std::uint8_t> scratch,
                     PyramidLevel& level) {
   if (level.planes.is_empty() && level.codes.is_empty()) return;
-  kernels.bit_planes(level.grey, level.codes, scratch, level.planes);
+  kernels.bit_planes(level.grey, level.dead_zone, level.codes, scratch, level.planes);
 }
 
 }  // namespace darkling

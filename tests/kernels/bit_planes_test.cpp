@@ -15,6 +15,8 @@ using test::GuardedLayout;
 using test::pixels_of;
 
 constexpr int kMaxWidth = 3 * 32 + 4;  // px, past three of the widest vectors
+// Both ends of the range, its middle, and what noise leads to.
+constexpr int kDeadZones[] = {0, 1, 2, 5, 12, 40, 127, 128, 254, 255};
 
 // The scratch of one width, right before a guard page.
 class GuardedScratch {
@@ -37,12 +39,12 @@ struct Outcome {
 
 // Runs one variant on `grey`, outputs in guarded memory shaped as `layout`.
 Outcome run(BitPlanesFn* bit_planes, const ImageView<const std::uint8_t>& grey,
-            const GuardedLayout& layout) {
+            const GuardedLayout& layout, int dead_zone = 0) {
   GuardedImage<std::uint8_t> codes(layout);
   GuardedImage<std::uint8_t> planes(
       test::resized(layout, layout.width * kPlaneCount, layout.height));
   GuardedScratch scratch(layout.width);
-  bit_planes(grey, codes.view(), scratch.span(), planes.view());
+  bit_planes(grey, dead_zone, codes.view(), scratch.span(), planes.view());
   EXPECT_TRUE(codes.padding_is_untouched());
   EXPECT_TRUE(planes.padding_is_untouched());
   EXPECT_TRUE(scratch.padding_is_untouched());
@@ -51,8 +53,10 @@ Outcome run(BitPlanesFn* bit_planes, const ImageView<const std::uint8_t>& grey,
 
 class EachBitPlanes : public ::testing::TestWithParam<KernelTable> {
  protected:
-  [[nodiscard]] static Outcome run_param(const ImageView<const std::uint8_t>& grey) {
-    return run(GetParam().bit_planes, grey, {.width = grey.width, .height = grey.height});
+  [[nodiscard]] static Outcome run_param(const ImageView<const std::uint8_t>& grey,
+                                         int dead_zone = 0) {
+    return run(GetParam().bit_planes, grey, {.width = grey.width, .height = grey.height},
+               dead_zone);
   }
 };
 
@@ -65,10 +69,11 @@ TEST_P(EachBitPlanes, EqualTheOracleOnEveryShapeAndFill) {
       GuardedImage<std::uint8_t> grey(layout);
       test::fill_image(grey.view(), fill, seed++);
       const std::vector<std::uint8_t> before = pixels_of(grey.view());
-      const Outcome outcome = run(GetParam().bit_planes, grey.view(), layout);
-      const test::GreyLevels codes = test::codes_oracle(test::blur_oracle(grey.view()));
-      ASSERT_EQ(outcome.codes, test::to_bytes(codes));
-      ASSERT_EQ(outcome.planes, test::planes_oracle(codes));
+      const int dead_zone = kDeadZones[seed % std::size(kDeadZones)];
+      const Outcome outcome = run(GetParam().bit_planes, grey.view(), layout, dead_zone);
+      const test::Census census = test::census_oracle(test::blur_oracle(grey.view()), dead_zone);
+      ASSERT_EQ(outcome.codes, test::to_bytes(census.brighter)) << dead_zone;
+      ASSERT_EQ(outcome.planes, test::planes_oracle(census)) << dead_zone;
       ASSERT_EQ(pixels_of(grey.view()), before);
       ASSERT_TRUE(grey.padding_is_untouched());
     }
@@ -87,8 +92,9 @@ TEST_P(EachBitPlanes, EqualTheReferenceBitForBit) {
                                  .height = layout.height,
                                  .row_padding = layout.row_padding + 3,
                                  .distance_to_guard = 5};
-    const Outcome outcome = run(GetParam().bit_planes, grey.view(), other);
-    const Outcome expected = run(bit_planes_ref, grey.view(), layout);
+    const int dead_zone = kDeadZones[seed % std::size(kDeadZones)];
+    const Outcome outcome = run(GetParam().bit_planes, grey.view(), other, dead_zone);
+    const Outcome expected = run(bit_planes_ref, grey.view(), layout, dead_zone);
     ASSERT_EQ(outcome.codes, expected.codes);
     ASSERT_EQ(outcome.planes, expected.planes);
   });
@@ -99,8 +105,8 @@ TEST_P(EachBitPlanes, AreTheSameInHighImages) {
     SCOPED_TRACE(height);
     GuardedImage<std::uint8_t> grey({.width = 37, .height = height, .row_padding = 3});
     test::fill_image(grey.view(), Fill::kUniform, static_cast<unsigned>(height));
-    const test::GreyLevels codes = test::codes_oracle(test::blur_oracle(grey.view()));
-    ASSERT_EQ(run_param(grey.view()).planes, test::planes_oracle(codes));
+    const test::Census census = test::census_oracle(test::blur_oracle(grey.view()), height);
+    ASSERT_EQ(run_param(grey.view(), height).planes, test::planes_oracle(census));
   }
 }
 
@@ -114,8 +120,8 @@ TEST_P(EachBitPlanes, ComputeTheCodesOrThePlanesAloneWhenTheOthersAreNotAskedFor
     GuardedImage<std::uint8_t> codes(layout);
     GuardedImage<std::uint8_t> planes(test::resized(layout, width * kPlaneCount, 7));
     GuardedScratch scratch(width);
-    GetParam().bit_planes(grey.view(), codes.view(), scratch.span(), {});
-    GetParam().bit_planes(grey.view(), {}, scratch.span(), planes.view());
+    GetParam().bit_planes(grey.view(), 0, codes.view(), scratch.span(), {});
+    GetParam().bit_planes(grey.view(), 0, {}, scratch.span(), planes.view());
     EXPECT_EQ(pixels_of(codes.view()), both.codes);
     EXPECT_EQ(pixels_of(planes.view()), both.planes);
     EXPECT_TRUE(codes.padding_is_untouched());
@@ -134,7 +140,8 @@ TEST_P(EachBitPlanes, IgnoreEveryStrictlyIncreasingMapOfTheBlurredImage) {
       map[i] = map[i - 1] + 1 + static_cast<int>(random() % 1000);
     }
     for (int& level : mapped.levels) level = map[static_cast<std::size_t>(level)];
-    ASSERT_EQ(run_param(grey.view()).codes, test::to_bytes(test::codes_oracle(mapped)));
+    ASSERT_EQ(run_param(grey.view()).codes,
+              test::to_bytes(test::census_oracle(mapped, 0).brighter));
   }
 }
 
@@ -153,6 +160,9 @@ TEST_P(EachBitPlanes, IgnoreABrighterImageAndAnExactGain) {
     const Outcome after = run_param(mapped.view());
     EXPECT_EQ(after.codes, before.codes);
     EXPECT_EQ(after.planes, before.planes);
+    const int dead_zone = 7;
+    EXPECT_EQ(run_param(mapped.view(), gain * dead_zone).planes,
+              run_param(plain.view(), dead_zone).planes);
   }
 }
 
@@ -189,13 +199,17 @@ TEST_P(EachBitPlanes, NumberTheNeighboursInRasterOrder) {
   }
 }
 
-TEST_P(EachBitPlanes, AreZeroInAConstantImage) {
+TEST_P(EachBitPlanes, AreUndecidedInAConstantImageIfThereIsADeadZone) {
   for (const unsigned level : {0U, 1U, 128U, 255U}) {
     GuardedImage<std::uint8_t> grey({.width = 40, .height = 12});
     test::fill_image(grey.view(), Fill::kConstant, level);
-    const Outcome outcome = run_param(grey.view());
-    EXPECT_EQ(outcome.codes, std::vector<std::uint8_t>(40 * 12, 0)) << level;
-    EXPECT_EQ(outcome.planes, std::vector<std::uint8_t>(40 * 12 * kPlaneCount, 0)) << level;
+    for (const int dead_zone : {0, 1, 100}) {
+      const Outcome outcome = run_param(grey.view(), dead_zone);
+      EXPECT_EQ(outcome.codes, std::vector<std::uint8_t>(40 * 12, 0)) << level;
+      EXPECT_EQ(outcome.planes,
+                std::vector<std::uint8_t>(40 * 12 * kPlaneCount, dead_zone == 0 ? 0 : 128))
+          << level << " " << dead_zone;
+    }
   }
 }
 
@@ -205,12 +219,13 @@ TEST_P(EachBitPlanes, KeepPlanesOfOneValueExactly) {
   for (int i = 0; i < kWidth * 10; ++i) {
     ramp.view().at(i % kWidth, i / kWidth) = static_cast<std::uint8_t>(5 * (i % kWidth));
   }
-  const std::vector<std::uint8_t> planes = run_param(ramp.view()).planes;
+  const std::vector<std::uint8_t> planes = run_param(ramp.view(), 3).planes;
   for (int i = 0; i < kWidth * 10; ++i) {
-    if (i % kWidth >= kWidth - 4) continue;  // the last column has no brighter one beside it
+    // The first column has no darker one beside it, the last no brighter one.
+    if (i % kWidth < 4 || i % kWidth >= kWidth - 4) continue;
+    constexpr int kOfNeighbours[kPlaneCount] = {0, 128, 255, 0, 255, 0, 128, 255};
     for (int c = 0; c < kPlaneCount; ++c) {
-      const bool is_to_the_right = c == 2 || c == 4 || c == 7;
-      ASSERT_EQ(planes[static_cast<std::size_t>(i * kPlaneCount + c)], is_to_the_right ? 255 : 0)
+      ASSERT_EQ(planes[static_cast<std::size_t>(i * kPlaneCount + c)], kOfNeighbours[c])
           << "column " << i % kWidth << ", plane " << c;
     }
   }
@@ -221,8 +236,8 @@ TEST_P(EachBitPlanes, LieUpToThreeAboveTheBinomialFilterWithoutRounding) {
     GuardedImage<std::uint8_t> grey({.width = 64, .height = 48});
     test::fill_image(grey.view(), Fill::kUniform, seed);
     const Outcome outcome = run_param(grey.view());
-    const test::GreyLevels codes = test::codes_oracle(test::blur_oracle(grey.view()));
-    const std::vector<double> exact = test::binomial_planes(codes);
+    const std::vector<double> exact =
+        test::binomial_planes(test::census_oracle(test::blur_oracle(grey.view()), 0));
     for (std::size_t i = 0; i < exact.size(); ++i) {
       ASSERT_GE(outcome.planes[i], exact[i]);
       ASSERT_LE(outcome.planes[i], exact[i] + 3.0);
@@ -249,14 +264,15 @@ TEST(BitPlanes, RefuseWhatDoesNotFit) {
   std::uint8_t codes[4] = {};
   alignas(64) static std::uint8_t scratch[16384];
   std::uint8_t planes[32] = {};
-  EXPECT_DEATH(bit_planes_ref({grey, 0, 1, 1}, {}, scratch, {}), "at least one pixel");
-  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, {codes, 2, 2, 2}, scratch, {}),
+  EXPECT_DEATH(bit_planes_ref({grey, 0, 1, 1}, 0, {}, scratch, {}), "at least one pixel");
+  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, 0, {codes, 2, 2, 2}, scratch, {}),
                "one census code a pixel");
-  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, {}, scratch, {planes, 16, 2, 16}),
+  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, 0, {}, scratch, {planes, 16, 2, 16}),
                "eight bytes of planes a pixel");
+  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, 256, {}, scratch, {}), "a grey level");
   const std::size_t needed = bit_planes_scratch_bytes(4);
   ASSERT_LE(needed, sizeof(scratch));
-  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, {}, {scratch, needed - 1}, {planes, 32, 1, 32}),
+  EXPECT_DEATH(bit_planes_ref({grey, 4, 1, 4}, 0, {}, {scratch, needed - 1}, {planes, 32, 1, 32}),
                "scratch is too small");
 }
 

@@ -16,12 +16,18 @@ constexpr int kPasses = 3;
 constexpr int kNeighbours[kPlaneCount][2] = {{-1, -1}, {0, -1}, {1, -1}, {-1, 0},
                                              {1, 0},   {-1, 1}, {0, 1},  {1, 1}};
 
-// One plane, 0 or 255, reaching `margin` pixels beyond the image on every side.
-GreyLevels plane_of(const GreyLevels& codes, int c, int margin) {
-  GreyLevels plane = {codes.width + 2 * margin, codes.height + 2 * margin, {}};
-  for (int y = -margin; y < codes.height + margin; ++y) {
-    for (int x = -margin; x < codes.width + margin; ++x) {
-      plane.levels.push_back((codes.at(x, y) >> c) % 2 == 1 ? 255 : 0);
+bool has_bit(int code, int c) {
+  return (code >> c) % 2 == 1;
+}
+
+// One plane, 0, 128 or 255, reaching `margin` pixels beyond the image on every side.
+GreyLevels plane_of(const Census& census, int c, int margin) {
+  const GreyLevels& brighter = census.brighter;
+  GreyLevels plane = {brighter.width + 2 * margin, brighter.height + 2 * margin, {}};
+  for (int y = -margin; y < brighter.height + margin; ++y) {
+    for (int x = -margin; x < brighter.width + margin; ++x) {
+      const bool is_darker = has_bit(census.darker.at(x, y), c);
+      plane.levels.push_back(has_bit(brighter.at(x, y), c) ? 255 : is_darker ? 0 : 128);
     }
   }
   return plane;
@@ -75,26 +81,29 @@ GreyLevels blur_oracle(const ImageView<const std::uint8_t>& grey) {
   return blurred;
 }
 
-GreyLevels codes_oracle(const GreyLevels& blurred) {
-  GreyLevels codes = {blurred.width, blurred.height, std::vector<int>(blurred.levels.size(), 0)};
+Census census_oracle(const GreyLevels& blurred, int dead_zone) {
+  const GreyLevels none = {blurred.width, blurred.height,
+                           std::vector<int>(blurred.levels.size(), 0)};
+  Census census = {none, none};
   int bit_value = 1;
   for (const auto& [dx, dy] : kNeighbours) {
-    for (int i = 0; i < static_cast<int>(codes.levels.size()); ++i) {
-      const int x = i % codes.width;
-      const int y = i / codes.width;
-      if (blurred.at(x + dx, y + dy) - blurred.at(x, y) > 0) {
-        codes.levels[static_cast<std::size_t>(i)] += bit_value;
-      }
+    for (int i = 0; i < static_cast<int>(none.levels.size()); ++i) {
+      const int x = i % none.width;
+      const int y = i / none.width;
+      const int difference = blurred.at(x + dx, y + dy) - blurred.at(x, y);
+      const auto at = static_cast<std::size_t>(i);
+      if (difference > dead_zone) census.brighter.levels[at] += bit_value;
+      if (difference <= -dead_zone) census.darker.levels[at] += bit_value;
     }
     bit_value *= 2;
   }
-  return codes;
+  return census;
 }
 
-std::vector<std::uint8_t> planes_oracle(const GreyLevels& codes) {
-  std::vector<std::uint8_t> planes(codes.levels.size() * kPlaneCount);
+std::vector<std::uint8_t> planes_oracle(const Census& census) {
+  std::vector<std::uint8_t> planes(census.brighter.levels.size() * kPlaneCount);
   for (int c = 0; c < kPlaneCount; ++c) {
-    GreyLevels plane = plane_of(codes, c, kPasses);
+    GreyLevels plane = plane_of(census, c, kPasses);
     for (int pass = 0; pass < kPasses; ++pass) plane = smoothed_once(plane, 0, 1);
     for (int pass = 0; pass < kPasses; ++pass) plane = smoothed_once(plane, 1, 0);
     for (std::size_t i = 0; i < plane.levels.size(); ++i) {
@@ -105,11 +114,12 @@ std::vector<std::uint8_t> planes_oracle(const GreyLevels& codes) {
   return planes;
 }
 
-std::vector<double> binomial_planes(const GreyLevels& codes) {
+std::vector<double> binomial_planes(const Census& census) {
+  const GreyLevels& codes = census.brighter;
   constexpr double kTaps[] = {1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0};
   std::vector<double> planes(codes.levels.size() * kPlaneCount, 0.0);
   for (int c = 0; c < kPlaneCount; ++c) {
-    const GreyLevels plane = plane_of(codes, c, kPasses);
+    const GreyLevels plane = plane_of(census, c, kPasses);
     for (int i = 0; i < static_cast<int>(codes.levels.size()); ++i) {
       double sum = 0.0;
       for (int k = 0; k < 49; ++k) {

@@ -25,13 +25,19 @@ struct GreyLevels {
 // Step 1, in doubles and so exact, rounded half up afterwards.
 [[nodiscard]] GreyLevels blur_oracle(const ImageView<const std::uint8_t>& grey);
 
+// Both codes of every pixel.
+struct Census {
+  GreyLevels brighter;
+  GreyLevels darker;
+};
+
 // Step 2, one neighbour at a time, of an image that is blurred already.
-[[nodiscard]] GreyLevels codes_oracle(const GreyLevels& blurred);
+[[nodiscard]] Census census_oracle(const GreyLevels& blurred, int dead_zone);
 
 // Steps 3 and 4: interleaved planes, each line smoothed alone.
-[[nodiscard]] std::vector<std::uint8_t> planes_oracle(const GreyLevels& codes);
+[[nodiscard]] std::vector<std::uint8_t> planes_oracle(const Census& census);
 
 // The same with the binomial filter of order 6 in doubles, which nothing rounds.
-[[nodiscard]] std::vector<double> binomial_planes(const GreyLevels& codes);
+[[nodiscard]] std::vector<double> binomial_planes(const Census& census);
 
 }  // namespace darkling::test

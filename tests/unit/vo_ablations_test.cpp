@@ -51,7 +51,7 @@ class IntensityPlanes : public ::testing::Test {
 };
 
 TEST_F(IntensityPlanes, AreEightTimesTheSmoothedGreyLevel) {
-  intensity_planes(grey_.view(), codes_.view(), scratch_, planes_.view());
+  intensity_planes(grey_.view(), 0, codes_.view(), scratch_, planes_.view());
   for (int y = 0; y < kHeight; ++y) {
     for (int i = 0; i < kWidth * kPlaneCount; ++i) {
       const double expected = std::round(smoothed_oracle(grey_.view(), i / kPlaneCount, y));
@@ -63,18 +63,18 @@ TEST_F(IntensityPlanes, AreEightTimesTheSmoothedGreyLevel) {
 }
 
 TEST_F(IntensityPlanes, KeepTheCensusCodes) {
-  intensity_planes(grey_.view(), codes_.view(), scratch_, planes_.view());
+  intensity_planes(grey_.view(), 0, codes_.view(), scratch_, planes_.view());
   GuardedImage<std::uint8_t> expected(kLayout);
-  bit_planes_ref(grey_.view(), expected.view(), scratch_, {});
+  bit_planes_ref(grey_.view(), 0, expected.view(), scratch_, {});
   EXPECT_EQ(test::pixels_of(codes_.view()), test::pixels_of(expected.view()));
 }
 
 TEST_F(IntensityPlanes, AreGivenAloneWhenNoCodesAreAskedForAndTheOtherWayRound) {
-  intensity_planes(grey_.view(), codes_.view(), scratch_, planes_.view());
+  intensity_planes(grey_.view(), 0, codes_.view(), scratch_, planes_.view());
   GuardedImage<std::uint8_t> codes(kLayout);
   GuardedImage<std::uint8_t> planes(kPlanesLayout);
-  intensity_planes(grey_.view(), codes.view(), scratch_, {});
-  intensity_planes(grey_.view(), {}, scratch_, planes.view());
+  intensity_planes(grey_.view(), 0, codes.view(), scratch_, {});
+  intensity_planes(grey_.view(), 0, {}, scratch_, planes.view());
   EXPECT_EQ(test::pixels_of(codes.view()), test::pixels_of(codes_.view()));
   EXPECT_EQ(test::pixels_of(planes.view()), test::pixels_of(planes_.view()));
 }
@@ -82,7 +82,7 @@ TEST_F(IntensityPlanes, AreGivenAloneWhenNoCodesAreAskedForAndTheOtherWayRound) 
 TEST_F(IntensityPlanes, KeepAConstantImage) {
   for (const unsigned level : {0u, 1u, 254u, 255u}) {
     test::fill_image(grey_.view(), test::Fill::kConstant, level);
-    intensity_planes(grey_.view(), {}, scratch_, planes_.view());
+    intensity_planes(grey_.view(), 0, {}, scratch_, planes_.view());
     const std::uint8_t shown = grey_.view().at(0, 0);
     EXPECT_EQ(test::pixels_of(planes_.view()),
               std::vector<std::uint8_t>(std::size_t{kWidth} * kPlaneCount * kHeight, shown));

@@ -127,7 +127,7 @@ TEST(ComputePlanes, FillEveryLevelFromItsOwnGreyImage) {
         arena.allocate_image<std::uint8_t>(level.grey.width, level.grey.height, "codes");
     const auto planes =
         arena.allocate_image<std::uint8_t>(level.planes.width, level.planes.height, "planes");
-    bit_planes_ref(level.grey, codes, scratch, planes);
+    bit_planes_ref(level.grey, level.dead_zone, codes, scratch, planes);
     EXPECT_EQ(test::pixels_of(level.planes), test::pixels_of(planes)) << l;
     EXPECT_TRUE(l == 2 || test::pixels_of(level.codes) == test::pixels_of(codes)) << l;
   }

@@ -38,10 +38,10 @@ void halve(ImageView<const std::uint8_t> src, ImageView<std::uint8_t> dst) {
   counted.halve(src, dst);
 }
 
-void bit_planes(ImageView<const std::uint8_t> grey, ImageView<std::uint8_t> codes,
+void bit_planes(ImageView<const std::uint8_t> grey, int dead_zone, ImageView<std::uint8_t> codes,
                 std::span<std::uint8_t> scratch, ImageView<std::uint8_t> planes) {
   note(Kernel::kBitPlanes, pixels_of(grey), bit_planes_cost(!codes.is_empty(), !planes.is_empty()));
-  counted.bit_planes(grey, codes, scratch, planes);
+  counted.bit_planes(grey, dead_zone, codes, scratch, planes);
 }
 
 void saliency(ImageView<const std::uint8_t> planes, ImageView<std::uint16_t> dst) {

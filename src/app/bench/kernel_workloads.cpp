@@ -31,7 +31,7 @@ void add_image_kernels(KernelInputs& in, std::vector<KernelWorkload>& list) {
                   [&, halved](const KernelTable& t) { t.halve(level.grey, halved); }});
   list.push_back(
       {Kernel::kBitPlanes, pixels, bit_planes_cost(true, true), [&](const KernelTable& t) {
-         t.bit_planes(level.grey, level.codes, in.plane_scratch, level.planes);
+         t.bit_planes(level.grey, level.dead_zone, level.codes, in.plane_scratch, level.planes);
        }});
   list.push_back({Kernel::kSaliency, pixels, saliency_cost(),
                   [&](const KernelTable& t) { t.saliency(level.planes, in.selector.saliency); }});
