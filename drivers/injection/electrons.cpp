@@ -30,8 +30,8 @@ class Electrons final : public Injector {
   FrameFault inject(InjectedPair& pair) override {
     const double mean = std::max(0.5 * (mean_level(pair.left) + mean_level(pair.right)), 1.0);
     set_exposure(injection_.value / mean);
-    expose(pair.left, noise_key(injection_, pair.sequence, 0));
-    expose(pair.right, noise_key(injection_, pair.sequence, 1));
+    expose(pair.left, noise_key(injection_, pair.sequence, kLeftEye));
+    expose(pair.right, noise_key(injection_, pair.sequence, kRightEye));
     return FrameFault::kNone;
   }
 
@@ -60,8 +60,7 @@ class Electrons final : public Injector {
       const std::uint64_t row_key = key + static_cast<std::uint64_t>(y) * image.width;
       for (int x = 0; x < image.width; ++x) {
         const float electrons = collect(row[x], mix64(row_key + static_cast<std::uint64_t>(x)));
-        const float level = static_cast<float>(kBlackLevel) + gain * electrons + 0.5f;
-        row[x] = static_cast<std::uint8_t>(std::clamp(level, 0.0f, 255.0f));
+        row[x] = to_level(static_cast<float>(kBlackLevel) + gain * electrons);
       }
     }
   }

@@ -57,8 +57,13 @@ struct Injection {
 // A line a kind, indented, for the help of a command.
 [[nodiscard]] std::string describe_injections();
 
+// Of the noise of an injection, one for each purpose.
+inline constexpr int kLeftEye = 0;
+inline constexpr int kRightEye = 1;
+inline constexpr int kBothEyes = 2;  // what happens to both
+inline constexpr int kPath = 3;      // where
+
 // Chooses the noise: another for every kind, seed, sequence and stream.
-// @param stream  0 left eye, 1 right eye, 2 and 3 what they have in common.
 [[nodiscard]] std::uint64_t noise_key(const Injection& injection, std::int64_t sequence,
                                       int stream);
 

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "base/number_text.h"
 #include "drivers/injection/injection.h"
 #include "drivers/injection/light.h"
+#include "drivers/injection/stateless.h"
+#include "drivers/injection/transport.h"
+#include "drivers/injection/view.h"
 #include "drivers/sensor/mix64.h"
 
 namespace darkling {
@@ -13,7 +18,42 @@ using enum ValueForm;
 constexpr InjectionKind kKinds[] = {
     {"electrons", kNumber, "N", 0.1, 100000, "light for N photo-electrons a pixel on average",
      make_electrons},
-    {"gain", kNumber, "F", 0.01, 100, "brighter by the factor F, clipped", make_gain},
+    {"gain", kNumber, "F", 0.01, 100, "brighter by the factor F", make_stateless<apply_gain>},
+    {"gamma", kNumber, "G", 0.1, 10, "levels as their power G", make_stateless<apply_gamma>},
+    {"saturate", kNumber, "SHARE", 0.001, 0.99, "so bright that SHARE of the pixels clip",
+     make_stateless<apply_saturate>},
+    {"flicker", kNumber, "SHARE", 0.01, 1, "brighter or darker by SHARE, anew every frame",
+     make_stateless<apply_flicker>},
+    {"lamp", kNumber, "F", 0.1, 100, "a spot that wanders, brighter by 1 + F", make_lamp},
+    {"vignette", kNumber, "SHARE", 0.01, 1, "corners darker by SHARE", make_vignette},
+    {"blackout", kNone, "", 0, 0, "no light at all: black and a little noise",
+     make_stateless<apply_blackout>},
+    {"blur_px", kWholeNumber, "N", 2, 64, "smeared over N px, in a direction that turns slowly",
+     make_blur},
+    {"roll_right_deg", kNumber, "D", -10, 10, "the right camera turned by D about its axis",
+     make_roll_right},
+    {"occlude", kNumber, "SHARE", 0.01, 0.9, "a near board that wanders before SHARE of the image",
+     make_occlude},
+    {"drop", kNumber, "P", 0, 1, "pairs lost with probability P", make_stateless<apply_drop>},
+    {"drop_every", kWholeNumber, "N", 2, 10000, "every N-th pair lost",
+     make_stateless<apply_drop_every>},
+    {"freeze", kNone, "", 0, 0, "the pair before FIRST again and again, with new stamps",
+     make_freeze},
+    {"skew_ms", kNumber, "T", 0.1, 500, "the right image older by T", make_skew},
+    {"tear", kWord, "left|right|both", 0, 0, "the lower half is still that of the frame before",
+     make_tear},
+    {"corrupt", kNumber, "P", 0, 1, "blocks of garbage in one eye with probability P",
+     make_stateless<apply_corrupt>},
+    {"swap", kNone, "", 0, 0, "left and right exchanged", make_stateless<apply_swap>},
+    {"same_eyes", kNone, "", 0, 0, "the right image is the left one",
+     make_stateless<apply_same_eyes>},
+    {"cover", kWord, "left|right", 0, 0, "one eye covered, as by blackout",
+     make_stateless<apply_cover>},
+    {"black", kNone, "", 0, 0, "both images at level 0", make_stateless<apply_black>},
+    {"white", kNone, "", 0, 0, "both images at level 255", make_stateless<apply_white>},
+    {"constant", kWholeNumber, "LEVEL", 0, 255, "both images at one level",
+     make_stateless<apply_constant>},
+    {"noise", kNone, "", 0, 0, "both images of random levels", make_stateless<apply_noise>},
 };
 
 // FNV-1a.
@@ -35,7 +75,7 @@ std::span<const InjectionKind> injection_kinds() {
 }
 
 std::string describe_injections() {
-  constexpr std::size_t kColumn = 22;
+  constexpr std::size_t kColumn = 24;
   std::string text;
   for (const InjectionKind& kind : kKinds) {
     std::string line = "  " + spelt(kind);

@@ -47,14 +47,15 @@ float draw_poisson(float mean, std::uint64_t bits) {
 void PoissonTable::set_mean(int index, double mean) {
   CHECK(mean >= 0.0 && mean < kNormalFromElectrons, "the table ends beyond the highest mean");
   Sums& sums = sums_.at(static_cast<std::size_t>(index));
+  sums.fill(~std::uint32_t{0});
   double p = std::exp(-mean);
   double sum = p;
-  for (int k = 0; k <= kMostCount; ++k) {
+  // Until what is left is below the unit: further on, p is denormal and takes ten times as long.
+  for (int k = 0; k < kMostCount && (p > 1e-12 || k < mean); ++k) {
     sums[k] = static_cast<std::uint32_t>(std::min(sum * 0x1p32, 0x1p32 - 1.0));
     p *= mean / (k + 1);
     sum += p;
   }
-  sums[kMostCount] = ~std::uint32_t{0};
   Starts& starts = starts_.at(static_cast<std::size_t>(index));
   std::uint8_t count = 0;
   for (std::uint32_t slice = 0; slice < starts.size(); ++slice) {

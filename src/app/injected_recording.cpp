@@ -8,7 +8,7 @@
 namespace darkling {
 
 void declare_inject_option(CLI::App& command, std::vector<std::string>& texts) {
-  command.add_option("--inject", texts, "Let something go wrong, as below; repeatable, in order")
+  command.add_option("--inject", texts, "Let something go wrong, repeatable, in order")
       ->type_name("SPEC")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -16,8 +16,10 @@ void declare_inject_option(CLI::App& command, std::vector<std::string>& texts) {
 }
 
 std::string describe_inject_option() {
-  return "What goes wrong, as --inject NAME[=VALUE][@FIRST:LAST][,seed=N]; FIRST:LAST are frames, "
-         "as\nabove, seed is that of the noise. The same gives the same pixels on every run:\n" +
+  return "SPEC is NAME[=VALUE][@FIRST:LAST][,seed=N]: what goes wrong in the frames from FIRST up "
+         "to but\n"
+         "without LAST of SOURCE, counted from 0. The same SPEC gives the same pixels on every "
+         "run:\n" +
          describe_injections();
 }
 
