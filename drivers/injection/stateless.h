@@ -10,18 +10,18 @@ namespace darkling {
 
 // An injector that knows nothing of other pairs and needs no memory: a function of the injection
 // and the pair, which returns nothing, or why the pair is lost.
-template <auto kApply>
+template <auto Apply>
 class Stateless final : public Injector {
  public:
   explicit Stateless(const Injection& injection) : injection_(injection) {}
 
   FrameFault inject(InjectedPair& pair) override {
-    using Returned = std::invoke_result_t<decltype(kApply), const Injection&, InjectedPair&>;
+    using Returned = std::invoke_result_t<decltype(Apply), const Injection&, InjectedPair&>;
     if constexpr (std::is_void_v<Returned>) {
-      kApply(injection_, pair);
+      Apply(injection_, pair);
       return FrameFault::kNone;
     } else {
-      return kApply(injection_, pair);
+      return Apply(injection_, pair);
     }
   }
 
@@ -29,9 +29,9 @@ class Stateless final : public Injector {
   Injection injection_;
 };
 
-template <auto kApply>
+template <auto Apply>
 std::unique_ptr<Injector> make_stateless(const Injection& injection) {
-  return std::make_unique<Stateless<kApply>>(injection);
+  return std::make_unique<Stateless<Apply>>(injection);
 }
 
 }  // namespace darkling
