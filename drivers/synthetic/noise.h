@@ -7,17 +7,11 @@
 
 #include <Eigen/Core>
 
+#include "drivers/sensor/mix64.h"
+
 namespace darkling::synthetic {
 
 using Vec3f = Eigen::Vector3f;
-
-// A bijective scramble of 64 bits (the finaliser of SplitMix64).
-[[nodiscard]] constexpr std::uint64_t mix64(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
 
 [[nodiscard]] constexpr std::uint32_t scramble(std::uint32_t h) {
   h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -29,11 +23,6 @@ using Vec3f = Eigen::Vector3f;
   return scramble(seed * 0x9e3779b1u + static_cast<std::uint32_t>(x) * 0x85ebca77u +
                   static_cast<std::uint32_t>(y) * 0xc2b2ae3du +
                   static_cast<std::uint32_t>(z) * 0x27d4eb2fu);
-}
-
-// A hash as a number in [0, 1).
-[[nodiscard]] constexpr float unit_float(std::uint32_t h) {
-  return static_cast<float>(h >> 8) * (1.0f / 16777216.0f);
 }
 
 [[nodiscard]] inline float lerp(float a, float b, float t) {

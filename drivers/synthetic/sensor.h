@@ -4,12 +4,11 @@
 #include <cstdint>
 #include <span>
 
+#include "drivers/sensor/photon_noise.h"
 #include "drivers/synthetic/synthetic_spec.h"
 
 namespace darkling::synthetic {
 
-// Level of a pixel without light and noise: keeps the read noise from being cut off at 0.
-inline constexpr double kBlackLevel = 3.0;
 // The level that mid-grey is recorded as with the default exposure and gain, above black.
 inline constexpr double kMiddleLevel = 125.0;
 

@@ -2,9 +2,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "app/injected_recording.h"
 #include "app/verb.h"
 #include "app/verb_convert.h"
 
@@ -18,6 +20,7 @@ struct ConvertWords {
   std::string output;
   std::string format;
   std::string frames;
+  std::vector<std::string> injections;
   std::int64_t stride = 1;
   bool is_forced = false;
 };
@@ -51,8 +54,11 @@ Result<int> run(const ConvertWords& words) {
     if (!range) return tl::unexpected(range.error());
     frames = *range;
   }
+  auto injections = parse_injections(words.injections);
+  if (!injections) return tl::unexpected(injections.error());
   return run_convert({.source = words.source,
                       .frames = frames,
+                      .injections = std::move(*injections),
                       .output = words.output,
                       .layout = *layout,
                       .is_forced = words.is_forced});
@@ -64,10 +70,13 @@ constexpr const char* kMore =
     "goes\n"
     "along; into a folder only where a pose is known for the very frame, and into a KITTI folder,\n"
     "which holds rectified images only, where one is known for every frame.\n"
-    "The same source gives the same bytes. An interrupted run leaves a shorter recording.\n\n"
+    "The same source gives the same bytes. An interrupted run leaves a shorter recording.\n"
+    "--inject is as of `darkling replay`, which lists all there is: replaying OUT then gives what\n"
+    "replaying SOURCE with the same injections gives.\n\n"
     "Examples:\n"
     "  darkling convert ~/euroc/MH_01_easy mh01.lcmlog\n"
     "  darkling convert run.lcmlog out/run --format euroc --frames 100:200\n"
+    "  darkling convert ~/kitti/06 dusk.lcmlog --inject electrons=5\n"
     "  darkling convert synthetic:mine,frames=200,seed=1 mine.lcmlog\n";
 
 }  // namespace
@@ -85,6 +94,7 @@ VerbAction declare_convert(CLI::App& command) {
   command.add_option("--frames", words->frames, "Only frames A up to but without B, from 0")
       ->type_name("A:B");
   command.add_option("--stride", words->stride, "Only every N-th frame")->type_name("N");
+  declare_inject_option(command, words->injections);
   command.add_flag("--force", words->is_forced, "Write over an earlier recording at OUT");
   command.footer(kMore);
   return [words] { return run(*words); };

@@ -7,6 +7,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include "app/injected_recording.h"
 #include "app/service/open_camera.h"
 #include "app/verb.h"
 #include "drivers/framelog/frame_log_writer.h"
@@ -86,14 +87,15 @@ Result<void> check_output(const RecordOptions& options, const std::string& camer
                  options.output + ": exists; name a new file, or add --force to write over it");
 }
 
-Result<FrameLogWriter> create_log(const std::string& path, const Config& config,
+Result<FrameLogWriter> create_log(const RecordOptions& options, const Config& config,
                                   const LiveCamera& camera) {
   rig_t record = to_rig_record(camera.rig);
-  record.source = camera.name;
+  record.source = name_injected(camera.name, options.injections);
   record.config = format_config(config);
   record.version = DARKLING_VERSION;
   constexpr std::int64_t kBytesPerLimit = 1'000'000;
-  return FrameLogWriter::create(path, record, config.service.record_limit_mb * kBytesPerLimit);
+  return FrameLogWriter::create(options.output, record,
+                                config.service.record_limit_mb * kBytesPerLimit);
 }
 
 // Of a stamp by CLOCK_MONOTONIC.
@@ -167,13 +169,14 @@ Result<int> record(const RecordOptions& options) {
   }
   auto camera = open_camera(*config);
   if (!camera) return tl::unexpected(camera.error());
+  camera->source = inject_into(std::move(camera->source), camera->rig, options.injections);
   if (auto started = camera->source->start(); !started) return tl::unexpected(started.error());
   for (const std::string& remark : camera->source->remarks()) {
     std::fprintf(stderr, "darkling: %s\n", remark.c_str());
   }
   catch_stop_signals();
   // Not before: without a camera no empty log is left behind.
-  auto log = create_log(options.output, *config, *camera);
+  auto log = create_log(options, *config, *camera);
   if (!log) return tl::unexpected(log.error());
 
   Tally tally;

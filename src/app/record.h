@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "base/time.h"
+#include "drivers/injection/injection.h"
 #include "io/config.h"
 
 namespace darkling {
@@ -17,6 +18,7 @@ struct RecordOptions {
   bool is_forced = false;  // write over what is there
   std::string config_path;
   std::vector<ConfigSetting> settings;
+  std::vector<Injection> injections;
   // Which of these is reached first ends it; else a stop.
   std::optional<Duration> duration;         // from the first pair on
   std::optional<std::int64_t> frame_count;  // whole pairs

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "app/injected_recording.h"
 #include "app/progress_line.h"
 #include "app/verb.h"
 #include "io/run_report.h"
@@ -56,6 +57,7 @@ Result<Run> prepare(const ReplayOptions& options) {
   if (!kernels) return tl::unexpected(kernels.error());
   auto recording = open_source(options.source, options.frames);
   if (!recording) return tl::unexpected(recording.error());
+  recording->source = inject_into(std::move(recording->source), recording->rig, options.injections);
   auto odometry =
       Odometry::create(config->odometry, recording->rig, *kernels, read_monotonic_clock);
   if (!odometry) return tl::unexpected(odometry.error());
@@ -138,7 +140,7 @@ Result<std::optional<Evaluation>> evaluate_run(const Run& run, const TruthNoise&
 RunReport report_run(Run& run, const ReplayOptions& options) {
   const SourceStats source = run.recording.source->stats();
   const RectifiedRig& rig = run.odometry->rig();
-  return {.source = options.source,
+  return {.source = name_injected(options.source, options.injections),
           .was_interrupted = is_stop_requested(),
           .statistics = run.statistics.summarise(),
           .faults = {.unreadable = source.unreadable,

@@ -8,6 +8,7 @@
 #include "app/pacer.h"
 #include "app/run_outputs.h"
 #include "base/result.h"
+#include "drivers/injection/injection.h"
 #include "io/config.h"
 
 namespace darkling {
@@ -16,6 +17,7 @@ namespace darkling {
 struct ReplayOptions {
   std::string source;
   OpenOptions frames;
+  std::vector<Injection> injections;
   std::string config_path;  // empty: the defaults
   std::vector<ConfigSetting> settings;
   std::string kernels = "auto";

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/dataset_writer.h"
+#include "app/injected_recording.h"
 #include "app/known_poses.h"
 #include "app/progress_line.h"
 #include "app/truth_record.h"
@@ -72,7 +73,7 @@ Result<std::unique_ptr<Output>> open_log(const ConvertOptions& options, const Re
     }
   }
   rig_t rig = to_rig_record(recording.rig);
-  rig.source = options.source;
+  rig.source = name_injected(options.source, options.injections);
   rig.version = DARKLING_VERSION;
   auto writer = FrameLogWriter::create(options.output, rig);
   if (!writer) return tl::unexpected(writer.error());
@@ -144,6 +145,7 @@ Result<Converted> write_frames(Recording& recording, Output& output) {
 Result<int> run_convert(const ConvertOptions& options) {
   auto recording = open_source(options.source, options.frames);
   if (!recording) return tl::unexpected(recording.error());
+  recording->source = inject_into(std::move(recording->source), recording->rig, options.injections);
   if (!recording->damage.empty()) {
     std::fprintf(stderr, "darkling: %s\n", recording->damage.c_str());
   }

@@ -3,16 +3,19 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/dataset_layout.h"
 #include "app/open_source.h"
 #include "base/result.h"
+#include "drivers/injection/injection.h"
 
 namespace darkling {
 
 struct ConvertOptions {
   std::string source;
   OpenOptions frames;
+  std::vector<Injection> injections;
   std::string output;
   std::optional<DatasetLayout> layout;  // nothing: a frame log
   bool is_forced = false;               // write over what is there

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "app/injected_recording.h"
 #include "app/record.h"
 #include "app/service/config_words.h"
 #include "app/verb.h"
@@ -18,6 +21,7 @@ struct RecordWords {
   RecordOptions options;
   ConfigWords config;
   std::optional<double> for_s;
+  std::vector<std::string> injections;
 };
 
 Result<int> run(const RecordWords& words) {
@@ -35,6 +39,9 @@ Result<int> run(const RecordWords& words) {
     return failure(ExitCode::kUsage, "--frames: found " + std::to_string(*options.frame_count) +
                                          ", allowed is 1 and more");
   }
+  auto injections = parse_injections(words.injections);
+  if (!injections) return tl::unexpected(injections.error());
+  options.injections = std::move(*injections);
   options.config_path = words.config.path;
   options.settings = words.config.settings();
   return record(options);
@@ -45,6 +52,8 @@ constexpr const char* kMore =
     "OUT without tracking: full images, the calibration, and the configuration in force. A pair\n"
     "that was lost or unusable is recorded as a gap. A running service has the camera for\n"
     "itself: stop it first, or let it record (`record_to` of its configuration).\n\n"
+    "--inject is as of `darkling replay`, which lists all there is: what is recorded is what was\n"
+    "injected. Frames count from when the camera is opened.\n\n"
     "Without --for and --frames it goes on until Ctrl-C; whatever ends it, OUT is whole then.\n"
     "It ends by itself at record_limit_mb of the configuration, too. 640x480 at 20 Hz are 12 MB a\n"
     "second. Exits 69 when there is no camera, it is taken, or it goes away.\n\n"
@@ -67,6 +76,7 @@ VerbAction declare_record(CLI::App& command) {
   command.add_option("--for", words->for_s, "Stop after so long from the first pair on")
       ->type_name("SECONDS");
   command.add_option("--frames", options.frame_count, "Stop after so many pairs")->type_name("N");
+  declare_inject_option(command, words->injections);
   command.add_flag("--force", options.is_forced, "Write over a file that is there");
   command.footer(kMore);
   return [words] { return run(*words); };

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/injected_recording.h"
 #include "app/replay.h"
 #include "app/service/config_words.h"
 #include "app/verb.h"
@@ -30,6 +31,7 @@ struct ReplayWords {
   std::string pace = "fast";
   std::string kernels = "auto";
   std::string frames;
+  std::vector<std::string> injections;
   std::int64_t stride = 1;
   bool is_config_wanted = false;
 };
@@ -58,11 +60,14 @@ Result<ReplayOptions> understand(const ReplayWords& words) {
     if (!range) return tl::unexpected(range.error());
     frames = *range;
   }
+  auto injections = parse_injections(words.injections);
+  if (!injections) return tl::unexpected(injections.error());
   std::vector<ConfigSetting> settings = words.config.settings();
   if (!words.width.empty()) settings.push_back({"--width", "width_px=" + words.width});
   return ReplayOptions{
       .source = words.source,
       .frames = frames,
+      .injections = std::move(*injections),
       .config_path = words.config.path,
       .settings = settings,
       .kernels = words.kernels,
@@ -103,11 +108,14 @@ constexpr const char* kMore =
     "NEES tells whether covariances keep what they promise: the mean of e' inverse(C) e / 6 of\n"
     "errors e with covariance C, 1 where they are right, above where they promise too much. The\n"
     "truth counts as exact unless --truth-noise says otherwise.\n\n"
-    "A run that lost track on the way is done all the same and exits 0: the table says so.\n\n"
-    "Examples:\n"
+    "A run that lost track on the way is done all the same and exits 0: the table says so.\n\n";
+
+constexpr const char* kExamples =
+    "\nExamples:\n"
     "  darkling replay ~/kitti/06 --width 310 --trajectory 06.txt --stats 06.json\n"
     "  darkling replay ~/euroc/MH_01_easy --trajectory mh01.tum --format tum\n"
     "  darkling replay synthetic:mine,frames=200,seed=1\n"
+    "  darkling replay ~/kitti/06 --inject electrons=5 --inject blackout@100:105\n"
     "  darkling replay --print-config > rover.yaml\n";
 
 void declare_input(CLI::App& command, ReplayWords& words) {
@@ -119,6 +127,7 @@ void declare_input(CLI::App& command, ReplayWords& words) {
   command.add_option("--frames", words.frames, "Only frames A up to but without B, from 0")
       ->type_name("A:B");
   command.add_option("--stride", words.stride, "Only every N-th frame")->type_name("N");
+  declare_inject_option(command, words.injections);
   command.add_option("--pace", words.pace, "As fast as it goes, or as it was recorded")
       ->type_name("fast|recorded");
   command.add_option("--kernels", words.kernels, "Instruction set to compute with")
@@ -152,7 +161,7 @@ VerbAction declare_replay(CLI::App& command) {
   auto words = std::make_shared<ReplayWords>();
   declare_input(command, *words);
   declare_output(command, *words);
-  command.footer(kMore);
+  command.footer(std::string(kMore) + describe_inject_option() + kExamples);
   return [words] { return run(*words); };
 }
 
