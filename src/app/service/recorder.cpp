@@ -89,7 +89,15 @@ void Recorder::write_black_box() {
 }
 
 void Recorder::on_wish(const Wish& wish) {
-  if (wish_count_ < wishes_.size()) wishes_[wish_count_++] = wish;
+  const bool is_one_more = wish_count_ == 0 || wish.kind == Wish::Kind::kReset ||
+                           wishes_[wish_count_ - 1].kind != wish.kind;
+  if (!is_one_more) {
+    wishes_[wish_count_ - 1] = wish;  // of hints in a row the last one counts; so of reseeds
+  } else if (wish_count_ < wishes_.size()) {
+    wishes_[wish_count_++] = wish;
+  } else {
+    drops_.add();
+  }
 }
 
 void Recorder::on_pair(const WaitResult& pair, const Estimate&) {
