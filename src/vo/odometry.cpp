@@ -204,7 +204,9 @@ Estimate Odometry::track(const StereoFrame& frame) {
 void Odometry::State::start(const StereoFrame& frame, Estimate& estimate) {
   previous_sequence = frame.sequence;
   if (make_keyframe(frame, estimate)) {
-    estimate.quality = 100;
+    const bool is_sure = (estimate.reasons & kReasonNoDepth) == 0;
+    if (!is_sure) estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+    estimate.quality = is_sure ? 100 : 1;
     estimate.visible_fraction = 1.0;
     estimate.point_count = keyframe.levels[0].points.count;
   } else {

@@ -12,20 +12,25 @@ namespace {
 
 // Fewer points with a depth than this do not make a keyframe, nor do those that are a smaller share
 // of the points that were looked for: in noise, with an eye covered or of another scene a chance
-// match is found for 0.05 to 0.46 of them, of real ones, however dark, for 0.44 to 0.95.
+// match is found for 0.05 to 0.55 of them, of real ones, however dark, for 0.44 to 0.95. Noise that
+// passes is found out by the next frame; a start, which has none before it, says its doubt itself.
 constexpr int kMinKeyframePoints = 60;
 constexpr double kMinKeyframeShare = 0.45;
+constexpr double kSureShare = 0.6;
 // Nor do points that are next to all at infinity: one image in both eyes, or nothing within sight.
 constexpr float kNearPx = 0.25f;
 constexpr double kMinNearShare = 0.02;
 
-bool have_depth(std::span<const PointSelector::Candidate> found, std::size_t wanted) {
+// Share of the points looked for that a depth was found for; 0 when those found are too few or too
+// far to track by.
+double depth_share(std::span<const PointSelector::Candidate> found, std::size_t wanted) {
   const auto near =
       std::count_if(found.begin(), found.end(),
                     [](const PointSelector::Candidate& c) { return c.disparity_px >= kNearPx; });
-  return static_cast<int>(found.size()) >= kMinKeyframePoints &&
-         static_cast<double>(found.size()) >= kMinKeyframeShare * static_cast<double>(wanted) &&
-         static_cast<double>(near) >= kMinNearShare * static_cast<double>(found.size());
+  const auto count = static_cast<double>(found.size());
+  const bool is_enough = static_cast<int>(found.size()) >= kMinKeyframePoints &&
+                         static_cast<double>(near) >= kMinNearShare * count;
+  return is_enough ? count / static_cast<double>(wanted) : 0.0;
 }
 
 }  // namespace
@@ -76,10 +81,11 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
       search_disparities(kernels, left[0], right[0], disparities.dense_level, chosen);
       refine_disparities(kernels, left[0], right[0], chosen);
       chosen = drop_unknown(chosen);
-      if (!have_depth(chosen, wanted)) {
+      const double share = depth_share(chosen, wanted);
+      if (share < (keyframe.is_empty() ? kSureShare : kMinKeyframeShare)) {
         estimate.reasons |= kReasonNoDepth;
-        return false;
       }
+      if (share < kMinKeyframeShare) return false;
     }
     build_template_level(kernels, chosen, left[l], rig.baseline_m, keyframe.levels[l]);
     if (l == 0 && config.refinement) add_to_window(chosen);

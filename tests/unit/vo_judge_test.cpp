@@ -21,7 +21,7 @@ TemplateLevel finest_level() {
 // As good as an alignment gets.
 Alignment good_alignment() {
   Alignment alignment;
-  alignment.score = {.cost = 0.1, .visible_fraction = 0.95, .visible_count = 760};
+  alignment.score = {.distance = 0.1, .cost = 0.1, .visible_fraction = 0.95, .visible_count = 760};
   alignment.has_converged = true;
   alignment.information = Matrix6::Identity();
   alignment.information.topLeftCorner<3, 3>() *= 50.0 * 50.0;
@@ -113,7 +113,8 @@ TEST(JudgeAlignment, WantsAKeyframeWhenTheViewHasChanged) {
     };
   };
   EXPECT_TRUE(is_due([](Alignment& a) { a.score.visible_fraction = 0.6; }));
-  EXPECT_TRUE(is_due([](Alignment& a) { a.score.cost = 0.5; }));
+  EXPECT_TRUE(is_due([](Alignment& a) { a.score.distance = 0.5; }));
+  EXPECT_FALSE(is_due([](Alignment& a) { a.score.cost = 0.5; })) << "as all are in the dark";
   EXPECT_TRUE(is_due(shift(0.25 * 4.0)));  // a quarter of the depth
   EXPECT_FALSE(is_due(shift(0.05 * 4.0)));
   // Never by metres alone: the same metre among far things is little.
@@ -141,8 +142,8 @@ TEST(JudgeAlignment, LowersTheQualityWithCostAndOverlap) {
 }
 
 TEST(AlignmentScore, RanksAPointOutsideTheImageAsHalfAMismatch) {
-  const AlignmentScore all_seen = {.cost = 0.4, .visible_fraction = 1.0, .visible_count = 100};
-  const AlignmentScore half_seen = {.cost = 0.3, .visible_fraction = 0.5, .visible_count = 50};
+  const AlignmentScore all_seen = {.distance = 0.4, .visible_fraction = 1.0, .visible_count = 100};
+  const AlignmentScore half_seen = {.distance = 0.3, .visible_fraction = 0.5, .visible_count = 50};
   const AlignmentScore unseen;
   EXPECT_DOUBLE_EQ(all_seen.rank(), 0.4);
   EXPECT_DOUBLE_EQ(half_seen.rank(), 0.4);

@@ -159,7 +159,7 @@ TEST(Odometry, KnowsNoMotionToOrFromAPoseThatWasNotMeasured) {
   EXPECT_TRUE(is_known(estimates[6].cov_previous_body));
 }
 
-TEST(Odometry, HoldsThePoseInTheDarkAndGoesOnInTheLight) {
+TEST(Odometry, PredictsThePoseThroughTheDarkAndGoesOnInTheLight) {
   const SyntheticRun& run = test::synthetic_run(kCorridor);
   std::vector<KeptFrame> frames = run.frames;
   for (std::size_t i = 4; i < 9; ++i) frames[i] = test::flat_frame(frames[i], 0);
@@ -167,9 +167,9 @@ TEST(Odometry, HoldsThePoseInTheDarkAndGoesOnInTheLight) {
   for (std::size_t i = 4; i < 9; ++i) {
     EXPECT_EQ(estimates[i].status, TrackStatus::kLost) << i;
     EXPECT_EQ(estimates[i].quality, -1);
-    EXPECT_NE(estimates[i].reasons, kReasonNone);
+    EXPECT_NE(estimates[i].reasons & kReasonTooDark, 0u);
     EXPECT_FALSE(estimates[i].is_keyframe) << "a bad frame never becomes a keyframe";
-    EXPECT_EQ(estimates[i].T_world_left.matrix(), estimates[3].T_world_left.matrix());
+    EXPECT_LT(metres_apart(estimates[i].T_world_body, run.T_world_body[i]), 0.05) << i;
     EXPECT_TRUE(is_finite(estimates[i]));
   }
   // The keyframe from before the dark is still in sight: nothing is broken.
@@ -235,7 +235,7 @@ TEST(Odometry, WaitsForDepthBeforeItStarts) {
   for (int i = 0; i < 4; ++i) {
     const Estimate dark = odometry->track(test::flat_frame(run.frames[0], 0).at(i));
     EXPECT_EQ(dark.status, TrackStatus::kLost);
-    EXPECT_EQ(dark.reasons, kReasonNoDepth);
+    EXPECT_EQ(dark.reasons & ~kReasonFrozen, kReasonTooDark);
     EXPECT_EQ(dark.reset_counter, 0);
   }
   const Estimate first = odometry->track(run.frames[0].at(4));
