@@ -151,7 +151,8 @@ class Measured:
                       "confidently wrong"], rows)
 
     def confidence(self):
-        by_kind = {"injections above": self.group_runs(), "bad streams": self.stream_runs(),
+        above = list(dict.fromkeys(self.group_runs() + self.plot_runs()))
+        by_kind = {"injections above": above, "bad streams": self.stream_runs(),
                    "drawn": self.drawn_runs()}
         return confidence_tables.by_recording(by_kind, self.scope.at_hand, self.figures)
 

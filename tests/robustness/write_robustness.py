@@ -59,4 +59,5 @@ if __name__ == "__main__":
     try:
         measure(sys.argv[1:])
     except KeyboardInterrupt:
-        sys.exit("run.sh: stopped, nothing written")
+        print("run.sh: stopped, nothing written", file=sys.stderr)
+        sys.exit(130)
