@@ -67,6 +67,10 @@ class Listing {
       } else {
         ++log_.damaged_records;
       }
+    } else if (event.channel == kCommandChannel) {
+      add_message(event, kCommandChannel);
+    } else if (event.channel == kHintChannel) {
+      add_message(event, kHintChannel);
     } else {
       ++log_.other_records;
     }
@@ -112,6 +116,13 @@ class Listing {
              .height = 0});
   }
 
+  void add_message(const LogEvent& event, const char* channel) {
+    log_.messages.push_back({.channel = channel,
+                             .row = rows().size(),
+                             .data_at = event.data_at,
+                             .data_size = event.data_size});
+  }
+
   // A row of which only its place is known.
   void add_damaged(const LogEvent& event) {
     const bool has_stamp =
@@ -130,6 +141,10 @@ class Listing {
            rows().back().sequence >= row.sequence) {
       rows().pop_back();
       ++log_.damaged_records;
+    }
+    for (auto m = log_.messages.rbegin(); m != log_.messages.rend() && m->row > rows().size();
+         ++m) {
+      m->row = rows().size();
     }
     const bool grows = rows().empty() || row.sequence > rows().back().sequence;
     const bool is_possible = row.sequence >= 0 && row.sequence <= kMaxSequence &&

@@ -27,12 +27,22 @@ struct FrameLogRow {
   int height = 0;
 };
 
+// A message to the odometry that was recorded between rows: on VO_COMMAND or VO_HINT. It may say
+// anything at all.
+struct FrameLogMessage {
+  const char* channel = nullptr;  // kCommandChannel or kHintChannel
+  std::size_t row = 0;            // of the first pair behind it; the number of rows: there is none
+  std::int64_t data_at = 0;       // where it begins in the file, bytes
+  std::int32_t data_size = 0;     // bytes
+};
+
 struct FrameLog {
   LogEvents events;
   rig_t record = {};  // with the texts
   StereoRig rig = {};
   std::optional<truth_t> truth = {};  // count, keys and poses agree
   std::vector<FrameLogRow> rows = {};
+  std::vector<FrameLogMessage> messages = {};  // as they came
   // Records that are damaged and cannot be told to be a frame's, and those of other channels.
   std::int64_t damaged_records = 0;
   std::int64_t other_records = 0;

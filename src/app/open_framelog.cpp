@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -21,6 +22,15 @@ std::vector<FrameLogRow> select(const std::vector<FrameLogRow>& rows, const Open
     i += options.stride;
   }
   return selected;
+}
+
+// Those before the pairs that are played: a pair that is left out takes its wishes along.
+std::vector<RecordedWish> select(std::vector<RecordedWish> wishes,
+                                 const std::vector<FrameLogRow>& selected) {
+  std::erase_if(wishes, [&](const RecordedWish& wish) {
+    return !std::ranges::binary_search(selected, wish.sequence, {}, &FrameLogRow::sequence);
+  });
+  return wishes;
 }
 
 }  // namespace
@@ -52,6 +62,9 @@ Result<Recording> open_framelog(const std::string& path, const OpenOptions& opti
   recording.calibration_path = path;
   recording.frame_count = static_cast<std::int64_t>(selected.size());
   if (log->truth) recording.truth = from_truth_record(*log->truth);
+  RecordedWishes recorded = read_wishes(*log);
+  recording.wishes = select(std::move(recorded.wishes), selected);
+  log->damaged_records += recorded.unreadable;
   recording.damage = describe_damage(*log);
   recording.source = std::make_unique<FramelogSource>(std::move(log->events), std::move(selected));
   return recording;

@@ -7,7 +7,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "app/service/wish_messages.h"
 #include "base/result.h"
 #include "drivers/frame_source.h"
 #include "geometry/stereo_rig.h"
@@ -28,11 +30,12 @@ struct Recording {
   std::string kind;  // "KITTI", "EuRoC", "frame log" or "synthetic"
   std::unique_ptr<FrameSource> source;
   StereoRig rig;
-  std::int64_t frame_count = 0;     // what will be played, bad frames included
-  std::string calibration_path;     // what the rig was read from; empty when synthetic
-  std::string truth_path;           // empty: the recording carries none
-  std::optional<Trajectory> truth;  // known without a file of its own
-  std::string damage;               // of the recording, in a sentence; empty: none is known
+  std::int64_t frame_count = 0;      // what will be played, bad frames included
+  std::string calibration_path;      // what the rig was read from; empty when synthetic
+  std::string truth_path;            // empty: the recording carries none
+  std::optional<Trajectory> truth;   // known without a file of its own
+  std::string damage;                // of the recording, in a sentence; empty: none is known
+  std::vector<RecordedWish> wishes;  // that the odometry obeyed when it was recorded
 };
 
 // @param text  "A:B", the rows from A up to but without B, counted from 0; either may be left out.

@@ -6,6 +6,7 @@
 
 #include "app/injected_recording.h"
 #include "app/progress_line.h"
+#include "app/service/obey_wish.h"
 #include "app/verb.h"
 #include "io/run_report.h"
 #include "platform/clocks.h"
@@ -30,6 +31,7 @@ struct Run {
   std::string truth_name;
   RunOutputs outputs;
   StatisticsRecorder statistics;
+  std::size_t wishes_obeyed = 0;           // of the recording's
   std::optional<std::int64_t> heap_calls;  // of the odometry since it was created
 };
 
@@ -78,7 +80,17 @@ Result<Run> prepare(const ReplayOptions& options) {
              .truth_name = std::move(truth->name),
              .outputs = std::move(*outputs),
              .statistics = {},
+             .wishes_obeyed = 0,
              .heap_calls = count_heap_calls() ? std::optional<std::int64_t>(0) : std::nullopt};
+}
+
+// What the odometry was asked for before this frame when it was recorded.
+void obey_wishes(Run& run, std::int64_t sequence) {
+  const std::vector<RecordedWish>& wishes = run.recording.wishes;
+  for (std::size_t& i = run.wishes_obeyed; i < wishes.size() && wishes[i].sequence <= sequence;
+       ++i) {
+    obey_wish(*run.odometry, wishes[i].wish);
+  }
 }
 
 // One input frame: tracked and timed when there is a pair, else skipped; heap calls are counted.
@@ -87,6 +99,7 @@ Estimate follow(Run& run, const WaitResult& next) {
   const bool is_bad = next.status == WaitStatus::kBadFrame;
   const auto heap_calls_before = count_heap_calls();
   run.odometry->finish_refinement();
+  obey_wishes(run, is_bad ? next.sequence : next.lease.frame().sequence);
   const MonotonicTime started_at = read_monotonic_clock();
   const Estimate estimate = is_bad ? run.odometry->skip(next.sequence, next.stamp)
                                    : run.odometry->track(next.lease.frame());

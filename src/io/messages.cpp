@@ -30,7 +30,12 @@ static_assert(is_same(update_t::REASON_RESIDUAL_HIGH, kReasonResidualHigh));
 static_assert(is_same(update_t::REASON_DROPPED, kReasonDropped));
 static_assert(is_same(update_t::REASON_NO_DEPTH, kReasonNoDepth));
 static_assert(is_same(update_t::REASON_EYES_SWAPPED, kReasonEyesSwapped));
-static_assert(kReasonCount == 8, "a new reason needs its constant in update_t.lcm");
+static_assert(is_same(update_t::REASON_TOO_DARK, kReasonTooDark));
+static_assert(is_same(update_t::REASON_SATURATED, kReasonSaturated));
+static_assert(is_same(update_t::REASON_FROZEN, kReasonFrozen));
+static_assert(is_same(update_t::REASON_EYES_DISAGREE, kReasonEyesDisagree));
+static_assert(is_same(update_t::REASON_CALIB_SUSPECT, kReasonCalibSuspect));
+static_assert(kReasonCount == 13, "a new reason needs its constant in update_t.lcm");
 
 void write_transform(const Se3& T, double (&translation)[3], double (&rotation)[4]) {
   std::copy_n(T.translation().data(), 3, translation);

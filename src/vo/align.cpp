@@ -15,7 +15,7 @@ namespace {
 
 // Descriptor distance, root mean square over the planes in 0…255, at which a point counts as not
 // matching at all. Two unrelated neighbourhoods are about 110 apart.
-constexpr double kCostTruncation = 80.0;
+constexpr double kDistanceTruncation = 80.0;
 constexpr int kMaxIterations = 30;  // a level
 // A step this small ends a level, in its own pixels. The next level goes on from there, so that
 // coarse ones need less: with 0.01 px for all it took twice the iterations and no recording's drift
@@ -24,21 +24,32 @@ constexpr double kConvergedStepPx = 0.01;
 constexpr double kConvergedCoarseStepPx = 0.1;
 constexpr int kMinPoints = 12;  // twice the unknowns; fewer do not constrain a motion
 
-AlignmentScore score_residuals(const PointResiduals& residuals, int count) {
-  double sum = 0.0;
-  int visible = 0;
-  for (int i = 0; i < count; ++i) {
-    const float squares = residuals.squares[i];
-    if (squares < 0.0f) continue;
-    sum += std::min(std::sqrt(static_cast<double>(squares) / kPlaneCount), kCostTruncation);
-    ++visible;
+// Σ (φ_c - undecided)²: how much the planes of one place say.
+int contrast_squares(const std::uint8_t* planes) {
+  constexpr int kUndecided = 128;
+  int squares = 0;
+  for (int c = 0; c < kPlaneCount; ++c) {
+    squares += (planes[c] - kUndecided) * (planes[c] - kUndecided);
   }
-  AlignmentScore score;
-  score.visible_count = visible;
-  if (visible == 0) return score;
-  score.cost = sum / (kCostTruncation * visible);
-  score.visible_fraction = static_cast<double>(visible) / count;
-  return score;
+  return squares;
+}
+
+// The planes of the pixel nearest to where point `i` appears. @pre it is in the image.
+const std::uint8_t* planes_at(const TemplatePoints& points, int i, const PointWarp& warp,
+                              const ImageView<const std::uint8_t>& planes) {
+  const float x = points.x[i];
+  const float y = points.y[i];
+  const float s = points.inverse_depth_focal[i];
+  const float* A = warp.A;
+  const float X = A[0] * x + A[1] * y + A[2] * warp.focal_px + warp.a[0] * s;
+  const float Y = A[3] * x + A[4] * y + A[5] * warp.focal_px + warp.a[1] * s;
+  const float Z = A[6] * x + A[7] * y + A[8] * warp.focal_px + warp.a[2] * s;
+  const auto nearest = [&warp, Z](float offset, float centre, int size) {
+    const float at = warp.focal_px * offset / Z + centre + 0.5f;
+    return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(size - 1)));
+  };
+  return planes.row(nearest(Y, warp.cy, planes.height)) +
+         kPlaneCount * nearest(X, warp.cx, planes.width / kPlaneCount);
 }
 
 // The median of the visible points' sums of squares, from a histogram whose bins are floating-point
@@ -107,6 +118,32 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
 
 }  // namespace
 
+AlignmentScore score_residuals(const TemplatePoints& points, const PointResiduals& residuals,
+                               const PointWarp& warp, const ImageView<const std::uint8_t>& planes) {
+  const auto distance_of = [](double squares) {
+    return std::min(std::sqrt(squares / kPlaneCount), kDistanceTruncation);
+  };
+  double sum = 0.0;
+  double sum_if_unrelated = 0.0;
+  int visible = 0;
+  for (int i = 0; i < points.count; ++i) {
+    const float squares = residuals.squares[i];
+    if (squares < 0.0f) continue;
+    sum += distance_of(squares);
+    // The squares of what is independent add up.
+    sum_if_unrelated += distance_of(contrast_squares(points.patches[i].reference) +
+                                    contrast_squares(planes_at(points, i, warp, planes)));
+    ++visible;
+  }
+  AlignmentScore score;
+  score.visible_count = visible;
+  if (visible == 0) return score;
+  score.distance = sum / (kDistanceTruncation * visible);
+  score.cost = sum / std::max(sum_if_unrelated, 1.0);
+  score.visible_fraction = static_cast<double>(visible) / points.count;
+  return score;
+}
+
 PointWarp make_warp(const Se3& T_current_key, const PyramidLevel& level) {
   PointWarp warp;
   const Matrix3 R = T_current_key.R();
@@ -158,8 +195,9 @@ Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyfra
     align_level(kernels, keyframe.levels[l], frame[l],
                 l == 0 ? kConvergedStepPx : kConvergedCoarseStepPx, scratch, alignment);
   };
-  const auto score = [&](int l) {
-    return score_residuals(scratch, keyframe.levels[l].points.count);
+  const auto score = [&](int l, const Alignment& alignment) {
+    return score_residuals(keyframe.levels[l].points, scratch,
+                           make_warp(alignment.T_current_key, frame[l]), frame[l].planes);
   };
   Alignment best;
   int iterations = 0;
@@ -167,13 +205,13 @@ Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyfra
     Alignment trial;
     trial.T_current_key = guesses[i];
     align(coarsest, trial);
-    trial.score = score(coarsest);
+    trial.score = score(coarsest, trial);
     iterations += trial.iterations;
     if (i == 0 || trial.score.rank() < best.score.rank()) best = trial;
   }
   best.iterations = iterations;
   for (int l = coarsest - 1; l >= 0; --l) align(l, best);
-  if (coarsest > 0) best.score = score(0);
+  if (coarsest > 0) best.score = score(0, best);
   return best;
 }
 

@@ -27,8 +27,13 @@ enum Reason : std::uint32_t {
   kReasonDropped = 1u << 5,         // no usable pair: lost or unreadable
   kReasonNoDepth = 1u << 6,         // stereo found no depth to track by
   kReasonEyesSwapped = 1u << 7,     // the left image is the right camera's
+  kReasonTooDark = 1u << 8,         // an eye sees next to nothing
+  kReasonSaturated = 1u << 9,       // an eye is blinded: most of its image is clipped
+  kReasonFrozen = 1u << 10,         // the same image again and again
+  kReasonEyesDisagree = 1u << 11,   // the right eye does not see what the left one does
+  kReasonCalibSuspect = 1u << 12,   // the eyes agree, but not on the same height
 };
-inline constexpr int kReasonCount = 8;
+inline constexpr int kReasonCount = 13;
 
 // The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
 enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect, kRefine };

@@ -6,7 +6,7 @@
 
 #include "geometry/frames.h"
 #include "kernels/bit_planes.h"
-#include "vo/estimate_noise.h"
+#include "vo/measure_image.h"
 
 namespace darkling {
 
@@ -55,14 +55,16 @@ std::span<std::uint8_t> allocate_plane_scratch(const RectifiedRig& rig, Arena& a
   return arena.allocate<std::uint8_t>(bit_planes_scratch_bytes(rig.width), "plane rows");
 }
 
-void build_pyramid(const KernelTable& kernels, FramePyramid& pyramid) {
-  double noise = estimate_noise(pyramid[0].grey);
+ImageMeasure build_pyramid(const KernelTable& kernels, FramePyramid& pyramid) {
+  const ImageMeasure measure = measure_image(pyramid[0].grey);
+  double noise = measure.noise;
   pyramid[0].dead_zone = dead_zone_of(noise);
   for (int l = 1; l < static_cast<int>(pyramid.size()); ++l) {
     kernels.halve(pyramid[l - 1].grey, pyramid[l].grey);
     noise *= 0.5;  // four pixels of independent noise in one
     pyramid[l].dead_zone = dead_zone_of(noise);
   }
+  return measure;
 }
 
 void compute_planes(const KernelTable& kernels, std::span<std::uint8_t> scratch,

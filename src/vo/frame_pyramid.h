@@ -8,6 +8,7 @@
 #include "geometry/stereo_rig.h"
 #include "kernels/kernel_table.h"
 #include "vo/limits.h"
+#include "vo/measure_image.h"
 
 namespace darkling {
 
@@ -16,7 +17,7 @@ struct PyramidLevel {
   ImageView<std::uint8_t> grey;
   ImageView<std::uint8_t> planes;  // interleaved bit-planes, 8 bytes a pixel; or empty
   ImageView<std::uint8_t> codes;   // census codes, where stereo needs them; else empty
-  int dead_zone = 0;               // of the planes, from the image's noise: see estimate_noise.h
+  int dead_zone = 0;               // of the planes, from the image's noise: see measure_image.h
   double focal_px = 0.0;
   double cx = 0.0;  // px; halving a coordinate maps c to (c + 0.5) / 2 - 0.5
   double cy = 0.0;
@@ -38,8 +39,9 @@ struct PyramidLayout {
 // Scratch that every level and both eyes share, sized for level 0.
 [[nodiscard]] std::span<std::uint8_t> allocate_plane_scratch(const RectifiedRig& rig, Arena& arena);
 
-// Fills the levels above 0 from level 0's grey image, and says how much of each is noise.
-void build_pyramid(const KernelTable& kernels, FramePyramid& pyramid);
+// Fills the levels above 0 from level 0's grey image, and the dead zones of all from its noise.
+// @return what level 0 says about itself.
+ImageMeasure build_pyramid(const KernelTable& kernels, FramePyramid& pyramid);
 
 // Fills the bit-planes and the census codes of one level, as far as it has them.
 void compute_planes(const KernelTable& kernels, std::span<std::uint8_t> scratch,

@@ -16,6 +16,16 @@ struct Judgement {
   bool is_keyframe_due = false;
 };
 
+// What is thought of an image before anything is made of it.
+struct ImageJudgement {
+  TrackStatus status = TrackStatus::kValid;  // kLost: not worth a keyframe or an alignment
+  std::uint32_t reasons = kReasonNone;
+};
+[[nodiscard]] ImageJudgement judge_image(const ImageMeasure& measure);
+
+// Whether this is what images cost that have nothing to do with the template.
+[[nodiscard]] bool is_unrelated(const AlignmentScore& score);
+
 // @param template_points       points of the keyframe's finest level.
 // @param mean_inverse_depth_focal  of the same, px/m.
 [[nodiscard]] Judgement judge_alignment(const Alignment& alignment, const TemplateLevel& finest,

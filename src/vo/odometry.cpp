@@ -7,7 +7,7 @@
 
 #include "vo/judge.h"
 #include "vo/odometry_state.h"
-#include "vo/refine_disparity.h"
+#include "vo/stage_timer.h"
 
 namespace darkling {
 
@@ -15,83 +15,15 @@ namespace {
 
 // Frames lost in a row after which the keyframe is given up and the present frame becomes one.
 constexpr int kLostFramesBeforeReset = 3;
-// Fewer points with a depth than this do not make a keyframe.
-constexpr int kMinKeyframePoints = 60;
+// The same image this often more is no camera that stands still: its noise would differ.
+constexpr int kFrozenRepeats = 2;
+// Beyond these, a motion that was measured says nothing of where the vehicle is.
+constexpr std::int64_t kMaxPredictedFrames = 10;
 // Of what refinement moved the keyframe by, the published pose follows this share a frame. At once
 // was tried: a step of a millimetre every sixth frame raised the RPE of rendered drives by a tenth.
 constexpr double kPublishedShare = 0.1;
 
-// Adds the time a stage took to its entry.
-class StageTimer {
- public:
-  StageTimer(Odometry::ReadClock read_clock, Estimate& estimate, Stage stage)
-      : read_clock_(read_clock),
-        time_(estimate.stage_times[static_cast<std::size_t>(stage)]),
-        start_(read_clock()) {}
-  ~StageTimer() { time_ += read_clock_() - start_; }
-  StageTimer(const StageTimer&) = delete;
-  StageTimer& operator=(const StageTimer&) = delete;
-
- private:
-  Odometry::ReadClock read_clock_;
-  Duration& time_;
-  MonotonicTime start_;
-};
-
 }  // namespace
-
-// Turns the present frame, whose left pyramid is built and whose pose is known, into the keyframe.
-// @return false, and the old keyframe stays, when the pair shows too little depth.
-bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate) {
-  {
-    StageTimer timer(read_clock, estimate, Stage::kRectify);
-    kernels.remap_area(right_map, frame.right, right[0].grey);
-  }
-  {
-    StageTimer timer(read_clock, estimate, Stage::kPlanes);
-    build_pyramid(kernels, right);
-    for (PyramidLevel& level : right) compute_planes(kernels, plane_scratch, level);
-  }
-  {
-    StageTimer timer(read_clock, estimate, Stage::kStereo);
-    const int dense = disparities.dense_level;
-    if (!keyframe.is_empty()) {
-      (void)match_stereo(kernels, left[dense].codes, right[dense].codes, matcher,
-                         disparities.levels[0]);
-    } else if (are_eyes_swapped(kernels, left[dense].codes, right[dense].codes, matcher,
-                                disparities.levels[0])) {
-      estimate.reasons |= kReasonEyesSwapped;
-      return false;
-    }
-    reduce_disparities(disparities);
-  }
-  StageTimer timer(read_clock, estimate, Stage::kSelect);
-  for (int l = 0; l < static_cast<int>(left.size()); ++l) {
-    std::span<PointSelector::Candidate> chosen =
-        select_points(kernels, left[l], disparities.at_level(l),
-                      selector.for_at_most(keyframe.levels[l].capacity));
-    if (l == 0) {
-      search_disparities(kernels, left[0], right[0], disparities.dense_level, chosen);
-      refine_disparities(kernels, left[0], right[0], chosen);
-      chosen = drop_unknown(chosen);
-      if (static_cast<int>(chosen.size()) < kMinKeyframePoints) return false;
-    }
-    build_template_level(kernels, chosen, left[l], rig.baseline_m, keyframe.levels[l]);
-    if (l == 0 && config.refinement) add_to_window(chosen);
-  }
-  T_world_key = T_world_previous;
-  covariance.set_keyframe();
-  estimate.is_keyframe = true;
-  start_refinement();
-  return true;
-}
-
-// The template's finest level takes over what the window knows, and becomes part of it.
-void Odometry::State::add_to_window(std::span<const PointSelector::Candidate> measured) {
-  TemplatePoints& points = keyframe.levels[0].points;
-  (void)carry_depths(window, T_world_previous, left[0], measured, point_image, points);
-  add_keyframe(T_world_previous, points, measured, window);
-}
 
 // The image of the newest keyframe stays as it is until the next frame: until then, the window
 // belongs to whoever refines it.
@@ -129,23 +61,34 @@ void Odometry::State::finish_refinement() {
 }
 
 // Brings the frame's left eye into the shape that everything else works on.
-void Odometry::State::prepare_left(const StereoFrame& frame, Estimate& estimate) {
+ImageMeasure Odometry::State::prepare_left(const StereoFrame& frame, Estimate& estimate) {
+  ImageMeasure measure;
   {
     StageTimer timer(read_clock, estimate, Stage::kRectify);
     kernels.remap_area(left_map, frame.left, left[0].grey);
   }
   {
     StageTimer timer(read_clock, estimate, Stage::kPyramid);
-    build_pyramid(kernels, left);
+    measure = build_pyramid(kernels, left);
   }
   StageTimer timer(read_clock, estimate, Stage::kPlanes);
   for (PyramidLevel& level : left) compute_planes(kernels, plane_scratch, level);
+  return measure;
 }
 
-// T_world_left of frame `sequence` if the last measured motion goes on.
+void Odometry::State::note_repeats(const ImageMeasure& measure, Estimate& estimate) {
+  repeats = measure.hash == previous_hash ? repeats + 1 : 0;
+  previous_hash = measure.hash;
+  if (repeats < kFrozenRepeats) return;
+  estimate.reasons |= kReasonFrozen;
+  estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+}
+
+// T_world_left of frame `sequence` if the last measured motion goes on, which it does not for ever.
 Se3 Odometry::State::predict(std::int64_t sequence) const {
-  const double ratio = static_cast<double>(sequence - previous_sequence) /
-                       static_cast<double>(std::max<std::int64_t>(motion_gap, 1));
+  const std::int64_t frames = std::min(sequence - previous_sequence, kMaxPredictedFrames);
+  const double ratio =
+      static_cast<double>(frames) / static_cast<double>(std::max<std::int64_t>(motion_gap, 1));
   return T_world_previous * Se3::exp(ratio * T_before_previous.log());
 }
 
@@ -206,7 +149,12 @@ Estimate Odometry::track(const StereoFrame& frame) {
   Estimate estimate;
   estimate.sequence = frame.sequence;
   estimate.stamp = frame.stamp;
-  s.prepare_left(frame, estimate);
+  const ImageMeasure measure = s.prepare_left(frame, estimate);
+  const ImageJudgement seen = judge_image(measure);
+  estimate.status = seen.status;
+  estimate.reasons = seen.reasons;
+  s.note_repeats(measure, estimate);
+  if (estimate.status == TrackStatus::kLost) return s.pass_over(estimate), estimate;
   if (s.keyframe.is_empty()) return s.start(frame, estimate), estimate;
 
   const std::array<Se3, 3> guesses = {
@@ -221,14 +169,14 @@ Estimate Odometry::track(const StereoFrame& frame) {
                             s.residuals);
   }
   const Judgement judgement = judge_alignment(alignment, s.keyframe.levels[0], s.rig.focal_px);
-  estimate.status = judgement.status;
-  estimate.reasons = judgement.reasons;
+  estimate.status = std::max(estimate.status, judgement.status);
+  estimate.reasons |= judgement.reasons;
   estimate.quality = judgement.quality;
   estimate.point_count = alignment.score.visible_count;
   estimate.visible_fraction = alignment.score.visible_fraction;
   estimate.cost = alignment.score.cost;
   estimate.iterations = alignment.iterations;
-  if (judgement.status == TrackStatus::kLost) return s.lose(frame, estimate), estimate;
+  if (estimate.status == TrackStatus::kLost) return s.lose(frame, estimate), estimate;
 
   {
     StageTimer timer(s.read_clock, estimate, Stage::kTrack);
@@ -241,8 +189,13 @@ Estimate Odometry::track(const StereoFrame& frame) {
   }
   s.accept(s.T_world_key * alignment.T_current_key.inverse(), frame.sequence);
   if (judgement.is_keyframe_due || s.is_reseed_wanted) {
-    s.is_reseed_wanted &= !s.make_keyframe(frame, estimate);
+    const bool is_made = s.make_keyframe(frame, estimate);
+    s.is_reseed_wanted &= !is_made;
+    if (!is_made) estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+  } else {
+    s.look_at_right_eye(frame, alignment.T_current_key, estimate);
   }
+  s.report_eyes(estimate);
   s.report(s.T_world_previous, estimate);
   return estimate;
 }
@@ -251,16 +204,21 @@ Estimate Odometry::track(const StereoFrame& frame) {
 void Odometry::State::start(const StereoFrame& frame, Estimate& estimate) {
   previous_sequence = frame.sequence;
   if (make_keyframe(frame, estimate)) {
-    estimate.status = TrackStatus::kValid;
     estimate.quality = 100;
     estimate.visible_fraction = 1.0;
     estimate.point_count = keyframe.levels[0].points.count;
   } else {
     estimate.status = TrackStatus::kLost;
-    if (estimate.reasons == kReasonNone) estimate.reasons = kReasonNoDepth;
     estimate.quality = -1;
   }
   report(T_world_previous, estimate);
+}
+
+// Nothing was seen: the pose is predicted, and tracking goes on from where it was.
+void Odometry::State::pass_over(Estimate& estimate) {
+  estimate.status = TrackStatus::kLost;
+  estimate.quality = -1;
+  report(keyframe.is_empty() ? T_world_previous : predict(estimate.sequence), estimate);
 }
 
 void Odometry::finish_refinement() {
@@ -273,10 +231,8 @@ Estimate Odometry::skip(std::int64_t sequence, FrameTime stamp) {
   Estimate estimate;
   estimate.sequence = sequence;
   estimate.stamp = stamp;
-  estimate.status = TrackStatus::kLost;
   estimate.reasons = kReasonDropped;
-  estimate.quality = -1;
-  s.report(s.keyframe.is_empty() ? s.T_world_previous : s.predict(sequence), estimate);
+  s.pass_over(estimate);
   return estimate;
 }
 

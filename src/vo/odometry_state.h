@@ -60,6 +60,11 @@ struct Odometry::State {
   std::optional<Se3> hinted;  // T_previous_left, for the next frame only
   bool is_reseed_wanted = false;
   int reset_counter = 0;
+  int frames_since_look = 0;      // at the right eye
+  bool do_eyes_disagree = false;  // as far as the last look could tell
+  int misplaced_looks = 0;        // in a row
+  std::uint64_t previous_hash = 0;
+  int repeats = 0;  // of the same image, in a row
   PoseCovariance covariance;
   bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to
 
@@ -80,13 +85,19 @@ struct Odometry::State {
   };
   [[nodiscard]] MapMemory allocate_buffers(Arena& from);
 
-  void prepare_left(const StereoFrame& frame, Estimate& estimate);
+  ImageMeasure prepare_left(const StereoFrame& frame, Estimate& estimate);
+  ImageMeasure prepare_right(const StereoFrame& frame, Estimate& estimate);
+  void note_repeats(const ImageMeasure& measure, Estimate& estimate);
+  void compare_eyes(const Se3& T_left_key);
+  void look_at_right_eye(const StereoFrame& frame, const Se3& T_left_key, Estimate& estimate);
+  void report_eyes(Estimate& estimate) const;
   bool make_keyframe(const StereoFrame& frame, Estimate& estimate);
   void add_to_window(std::span<const PointSelector::Candidate> measured);
   void start_refinement();
   void refine();
   void finish_refinement();
   void start(const StereoFrame& frame, Estimate& estimate);
+  void pass_over(Estimate& estimate);
   void lose(const StereoFrame& frame, Estimate& estimate);
   void accept(const Se3& T_world_left, std::int64_t sequence);
   void report(const Se3& T_world_left, Estimate& estimate);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "base/spsc_ring.h"
 #include "base/time.h"
 #include "geometry/se3.h"
@@ -15,6 +17,7 @@ struct Wish {
   Duration span = {};        // … in so much time
 };
 
-using WishRing = SpscRing<Wish, 16>;
+inline constexpr std::size_t kWishRingSize = 16;
+using WishRing = SpscRing<Wish, kWishRingSize>;
 
 }  // namespace darkling

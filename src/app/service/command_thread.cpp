@@ -52,10 +52,8 @@ class CommandThread::Listener {
     const auto command = understand_command(bytes_of(received));
     if (!command) {
       ++thread.malformed_;
-    } else if (command->command == command_t::COMMAND_RESET) {
-      static_cast<void>(thread.links_.wishes.try_push({.kind = Wish::Kind::kReset}));
-    } else if (command->command == command_t::COMMAND_RESEED) {
-      static_cast<void>(thread.links_.wishes.try_push({.kind = Wish::Kind::kReseed}));
+    } else if (const Wish wish = to_wish(*command); wish.kind != Wish::Kind::kNone) {
+      static_cast<void>(thread.links_.wishes.try_push(Wish(wish)));
     } else {
       thread.links_.on_command(command->command);
     }

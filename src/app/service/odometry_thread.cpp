@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/service/journal.h"
+#include "app/service/obey_wish.h"
 #include "platform/heap_probe.h"
 #include "platform/realtime.h"
 
@@ -51,20 +52,8 @@ void OdometryThread::serve(int cpu) {
 
 void OdometryThread::take_wishes(FrameTime stamp) {
   while (std::optional<Wish> wish = links_.wishes.try_pop()) {
-    switch (wish->kind) {
-      case Wish::Kind::kNone:
-        continue;
-      case Wish::Kind::kReset:
-        links_.odometry.reset();
-        break;
-      case Wish::Kind::kReseed:
-        links_.odometry.reseed();
-        break;
-      case Wish::Kind::kHint:
-        if (!bring_to_pace(*wish, stamp)) continue;
-        links_.odometry.hint(wish->T_previous_body);
-        break;
-    }
+    if (wish->kind == Wish::Kind::kHint && !bring_to_pace(*wish, stamp)) continue;
+    obey_wish(links_.odometry, *wish);
     if (links_.observer != nullptr) links_.observer->on_wish(*wish);
   }
 }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 
+#include "app/service/claim_file.h"
 #include "app/service/journal.h"
 #include "app/service/wish_messages.h"
 #include "drivers/framelog/rig_record.h"
@@ -87,7 +89,15 @@ void Recorder::write_black_box() {
 }
 
 void Recorder::on_wish(const Wish& wish) {
-  if (wish_count_ < wishes_.size()) wishes_[wish_count_++] = wish;
+  const bool is_one_more = wish_count_ == 0 || wish.kind == Wish::Kind::kReset ||
+                           wishes_[wish_count_ - 1].kind != wish.kind;
+  if (!is_one_more) {
+    wishes_[wish_count_ - 1] = wish;  // of hints in a row the last one counts; so of reseeds
+  } else if (wish_count_ < wishes_.size()) {
+    wishes_[wish_count_++] = wish;
+  } else {
+    drops_.add();
+  }
 }
 
 void Recorder::on_pair(const WaitResult& pair, const Estimate&) {
@@ -169,20 +179,25 @@ void Recorder::dump_black_box() {
 
 std::optional<FrameLogWriter> Recorder::create(Purpose purpose) {
   const bool is_black_box = purpose == Purpose::kBlackBox;
-  const std::string path = config_.service.record_to +
-                           (is_black_box ? "/blackbox-" : "/darkling-") + time_for_a_name() +
-                           ".lcmlog";
+  const auto path = claim_file(
+      config_.service.record_to + (is_black_box ? "/blackbox-" : "/darkling-") + time_for_a_name(),
+      ".lcmlog");
+  if (!path) {
+    fail(path.error().message);
+    return std::nullopt;
+  }
   rig_t record = to_rig_record(rig_);
   record.source = source_;
   record.config = format_config(config_);
   record.version = DARKLING_VERSION;
   constexpr std::int64_t kBytesPerMb = 1'000'000;
-  auto log = FrameLogWriter::create(path, record, config_.service.record_limit_mb * kBytesPerMb);
+  auto log = FrameLogWriter::create(*path, record, config_.service.record_limit_mb * kBytesPerMb);
   if (!log) {
     fail(log.error().message);
+    std::remove(path->c_str());  // there is not even a rig in it
     return std::nullopt;
   }
-  report_info((is_black_box ? "black_box=" : "recording=") + path);
+  report_info((is_black_box ? "black_box=" : "recording=") + *path);
   return std::move(*log);
 }
 

@@ -46,11 +46,13 @@ class Recorder final : public PairObserver {
 
   [[nodiscard]] bool is_recording() const { return is_recording_; }
   [[nodiscard]] std::int64_t recorded() const { return recorded_.get(); }
+  // Pairs and wishes that were left out: a replay of the rest differs.
   [[nodiscard]] std::int64_t drops() const { return drops_.get(); }
   // An error ended a recording.
   [[nodiscard]] std::int64_t failures() const { return failures_.get(); }
 
  private:
+  using Wishes = std::array<Wish, kWishRingSize>;
   // One pair and what was asked for before it.
   struct Slot {
     enum class State { kFree = 0, kFilled, kWriting };
@@ -60,7 +62,7 @@ class Recorder final : public PairObserver {
     StereoFrame frame;  // of the two below; without pixels when there is a fault
     std::vector<std::uint8_t> left;
     std::vector<std::uint8_t> right;
-    std::array<Wish, 4> wishes;
+    Wishes wishes;
     std::size_t wish_count = 0;
   };
   enum class Purpose { kRecording, kBlackBox };
@@ -80,7 +82,7 @@ class Recorder final : public PairObserver {
   const StereoRig rig_;
   const std::string source_;
   std::vector<Slot> slots_;
-  std::array<Wish, 4> wishes_;  // since the last pair
+  Wishes wishes_;  // since the last pair
   std::size_t wish_count_ = 0;
 
   std::atomic<std::int64_t> next_ = 0;       // pairs so far

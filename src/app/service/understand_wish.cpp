@@ -45,6 +45,17 @@ std::optional<command_t> understand_command(std::span<const std::byte> message) 
   return command;
 }
 
+Wish to_wish(const command_t& command) {
+  switch (command.command) {
+    case command_t::COMMAND_RESET:
+      return {.kind = Wish::Kind::kReset};
+    case command_t::COMMAND_RESEED:
+      return {.kind = Wish::Kind::kReseed};
+    default:
+      return {};
+  }
+}
+
 std::optional<Wish> understand_hint(std::span<const std::byte> message, EpochTime now) {
   hint_t hint = {};
   if (!decode_from(message, hint) || !is_rigid(hint) || !is_current(hint, now)) {

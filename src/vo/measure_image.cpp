@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vo/estimate_noise.h"
+#include "vo/measure_image.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ constexpr int kStep = 3;  // px, from sample to sample, either way
 constexpr double kMaskDeviation = 6.0;
 // Of a normal distribution of deviation 1, a quarter lies closer to its middle than this.
 constexpr double kFirstQuartile = 0.3186;
-constexpr int kMaxResponse = 8 * 255;
+constexpr int kMaxResponse = 1023;  // that of half a black and half a white image is more
 
 // The blur before comparing leaves 0.375 of white noise, and a comparison with a neighbour sees
 // 0.8 (beside) to 1.05 (across) of that: 1.5 times 0.375 is 1.4 to 1.9 standard deviations of a
@@ -25,27 +25,22 @@ constexpr int kMaxResponse = 8 * 255;
 constexpr double kZonePerNoise = 1.5 * 0.375;
 constexpr int kMaxZone = 64;
 
+// Black levels of sensors lie below this; a scene that is seen at all has pixels above.
+constexpr int kDarkLevel = 12;
+constexpr int kBrightLevel = 250;
+
+constexpr std::uint64_t kHashFactor = 0x100000001b3;  // FNV-1a
+
+using Histogram = std::array<int, kMaxResponse + 1>;
+
 int respond(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below) {
   const int corners = above[-1] + above[1] + below[-1] + below[1];
   const int sides = above[0] + here[-1] + here[1] + below[0];
   return corners - 2 * sides + 4 * here[0];
 }
 
-}  // namespace
-
-double estimate_noise(const ImageView<const std::uint8_t>& grey) {
-  std::array<int, kMaxResponse + 1> histogram = {};
-  int count = 0;
-  for (int y = 1; y + 1 < grey.height; y += kStep) {
-    const std::uint8_t* above = grey.row(y - 1);
-    const std::uint8_t* here = grey.row(y);
-    const std::uint8_t* below = grey.row(y + 1);
-    for (int x = 1; x + 1 < grey.width; x += kStep) {
-      ++histogram[static_cast<std::size_t>(std::abs(respond(above + x, here + x, below + x)))];
-      ++count;
-    }
-  }
-  if (count == 0) return 0.0;
+// From responses to the mask.
+double noise_of(const Histogram& histogram, int count) {
   // Within the bin of the quartile, as if its responses were spread evenly: |r| = 0 stands for half
   // as wide a range as the others.
   const double wanted = 0.25 * count;
@@ -57,6 +52,34 @@ double estimate_noise(const ImageView<const std::uint8_t>& grey) {
   const double share = (wanted - below) / histogram[static_cast<std::size_t>(bin)];
   const double quartile = bin == 0 ? 0.5 * share : bin - 0.5 + share;
   return quartile / (kFirstQuartile * kMaskDeviation);
+}
+
+}  // namespace
+
+ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey) {
+  Histogram histogram = {};
+  int count = 0;
+  int dark = 0;
+  int bright = 0;
+  std::uint64_t hash = 0;
+  for (int y = 1; y + 1 < grey.height; y += kStep) {
+    const std::uint8_t* above = grey.row(y - 1);
+    const std::uint8_t* here = grey.row(y);
+    const std::uint8_t* below = grey.row(y + 1);
+    for (int x = 1; x + 1 < grey.width; x += kStep) {
+      const int response = std::abs(respond(above + x, here + x, below + x));
+      ++histogram[static_cast<std::size_t>(std::min(response, kMaxResponse))];
+      ++count;
+      dark += here[x] < kDarkLevel ? 1 : 0;
+      bright += here[x] >= kBrightLevel ? 1 : 0;
+      hash = (hash ^ here[x]) * kHashFactor;
+    }
+  }
+  if (count == 0) return {};
+  return {.noise = noise_of(histogram, count),
+          .dark_share = static_cast<double>(dark) / count,
+          .bright_share = static_cast<double>(bright) / count,
+          .hash = hash};
 }
 
 int dead_zone_of(double noise) {

@@ -7,9 +7,16 @@
 
 namespace darkling {
 
-// How noisy an image is, from itself: what is left of it where nothing else is.
-//
-// A mask that any plane of brightness and any straight edge along the axes leaves at zero,
+// What an image says about itself, from every third pixel of every third row.
+struct ImageMeasure {
+  double noise = 0.0;         // standard deviation, grey levels
+  double dark_share = 0.0;    // of the pixels, 0…1: next to black
+  double bright_share = 0.0;  // clipped, or nearly
+  std::uint64_t hash = 0;     // of the pixels looked at: the same image, the same hash
+};
+
+// Noise is what is left of the image where nothing else is. A mask that any plane of brightness and
+// any straight edge along the axes leaves at zero,
 //
 //    1 -2  1
 //   -2  4 -2   responds to white noise of deviation σ with one of 6 σ.
@@ -20,11 +27,9 @@ namespace darkling {
 // real and rendered images with noise of a known σ put in it reads 0.75 to 1.0 σ (less where it is
 // dark: photon noise is less there) and, without, 1.0 to 2.6, much of which is their own noise.
 //
-// @param grey  at least 3×3; smaller ones are taken for free of noise.
-// @return standard deviation, grey levels.
-// Cost: every third pixel of every third row.
+// @param grey  smaller than 3×3 it is taken for free of noise.
 // Source: Immerkær, "Fast noise variance estimation", CVIU 1996.
-[[nodiscard]] double estimate_noise(const ImageView<const std::uint8_t>& grey);
+[[nodiscard]] ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey);
 
 // The differences of blurred neighbours, in grey levels, that noise of deviation `noise` explains:
 // what bit-planes are computed with. In proportion to the noise, as the noise is to the gain: else
