@@ -62,10 +62,15 @@ void RunOutputs::append(const Estimate& estimate) {
   trajectory_.poses.push_back(
       {.stamp = by_row ? frame_time_from_ns(estimate.sequence) : estimate.stamp,
        .T_world_pose = to_affine(of_left ? T_first_left : estimate.T_world_body)});
+  std::optional<Se3> confident_motion;
+  if (is_confident(estimate)) {
+    confident_motion = T_pose_body_ * estimate.T_previous_body * T_pose_body_.inverse();
+  }
   uncertainties_.push_back(
       {.cov_motion = transport_covariance(estimate.cov_previous_body, T_pose_body_),
        .cov_pose = transport_covariance(estimate.cov_world_body, T_pose_body_),
-       .reset_counter = estimate.reset_counter});
+       .reset_counter = estimate.reset_counter,
+       .confident_motion = confident_motion});
 }
 
 Result<void> RunOutputs::write_stats(const std::string& json) {

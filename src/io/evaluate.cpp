@@ -108,13 +108,31 @@ double absolute_error_m(const Pairs& pairs) {
   return std::sqrt((R * estimate - truth).squaredNorm() / static_cast<double>(count));
 }
 
+Se3 se3(const Eigen::Affine3d& T) {
+  return Se3(T.rotation(), T.translation());
+}
+
 // Adds the error ξ of the estimated motion from pair a to pair b: T_estimate = T_truth exp(ξ).
 void add_error(const PosePair& a, const PosePair& b, const Matrix6& covariance,
                const TruthNoise& noise, NeesMean& nees) {
-  const auto se3 = [](const Eigen::Affine3d& T) { return Se3(T.rotation(), T.translation()); };
   const Se3 T_a_b_truth = se3(a.truth.inverse() * b.truth);
   const Vector6 xi = minus(se3(a.estimate.inverse() * b.estimate), T_a_b_truth);
   nees.add(xi, covariance + truth_covariance(noise, T_a_b_truth, b.index - a.index));
+}
+
+// The motions that were published as sure, against the true ones.
+Confidence evaluate_confidence(const Pairs& pairs, std::span<const PoseUncertainty> uncertainties,
+                               const TruthNoise& noise) {
+  ConfidenceCount count;
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    const PoseUncertainty& at = uncertainties[pairs[i].index];
+    if (!at.confident_motion || pairs[i].index != pairs[i - 1].index + 1) continue;
+    const Se3 T_a_b_truth = se3(pairs[i - 1].truth.inverse() * pairs[i].truth);
+    count.add(minus(*at.confident_motion, T_a_b_truth),
+              at.cov_motion + truth_covariance(noise, T_a_b_truth, 1),
+              T_a_b_truth.translation().norm());
+  }
+  return count.counts();
 }
 
 void evaluate_consistency(const Pairs& pairs, std::span<const PoseUncertainty> uncertainties,
@@ -158,6 +176,7 @@ Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate,
   evaluation.end_error_deg = end.angle_deg;
   if (!uncertainties.empty()) {
     evaluate_consistency(*pairs, uncertainties, truth_noise, evaluation);
+    evaluation.confidence = evaluate_confidence(*pairs, uncertainties, truth_noise);
   }
   return evaluation;
 }

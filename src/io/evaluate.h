@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "io/confidence.h"
 #include "io/nees.h"
 #include "io/trajectory.h"
 
@@ -18,6 +19,9 @@ struct PoseUncertainty {
   Matrix6 cov_motion;     // since the pose before
   Matrix6 cov_pose;       // since the last reset
   int reset_counter = 0;  // poses of different counts have nothing to do with each other
+  // The motion since the pose before as it was published, where that was confident: poses move
+  // with refinements besides.
+  std::optional<Se3> confident_motion = {};
 };
 
 struct Evaluation {
@@ -36,6 +40,7 @@ struct Evaluation {
   std::optional<Nees> nees_motion = {};  // between consecutive poses that both have a match
   std::optional<Nees> nees_pose =
       {};  // since the first pose with a match, or the first after a reset
+  std::optional<Confidence> confidence = {};  // of the published motions
 };
 
 // Rows are matched by number, stamps to the nearest truth within 5 ms.
@@ -44,8 +49,8 @@ struct Evaluation {
 //         the message gives both ranges.
 [[nodiscard]] Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate);
 
-// The same with NEES.
-// @param uncertainties  of the poses of `estimate`, one each; or none, for no NEES.
+// The same with NEES and confidence.
+// @param uncertainties  of the poses of `estimate`, one each; or none, for neither.
 [[nodiscard]] Result<Evaluation> evaluate(const Trajectory& truth, const Trajectory& estimate,
                                           std::span<const PoseUncertainty> uncertainties,
                                           const TruthNoise& truth_noise = {});

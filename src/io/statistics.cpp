@@ -35,6 +35,7 @@ void StatisticsRecorder::add_motion(const Estimate& estimate) {
   last_stamp_ = estimate.stamp;
   ++counts_.frames;
   counts_.resets = estimate.reset_counter;
+  add_state(estimate);
   counts_.distance_m += estimate.T_previous_body.translation().norm();
   for (int bit = 0; bit < kReasonCount; ++bit) {
     if ((estimate.reasons >> bit & 1u) != 0) ++counts_.reasons[bit];
@@ -42,6 +43,21 @@ void StatisticsRecorder::add_motion(const Estimate& estimate) {
   if (estimate.refinement != Refinement::kUnknown) {
     ++counts_.refinements[static_cast<std::size_t>(estimate.refinement)];
   }
+}
+
+void StatisticsRecorder::add_state(const Estimate& estimate) {
+  std::vector<StateSpan>& spans = counts_.states;
+  const bool goes_on = !spans.empty() && spans.back().status == estimate.status &&
+                       spans.back().reasons == estimate.reasons &&
+                       spans.back().resets == estimate.reset_counter;
+  if (!goes_on) {
+    spans.push_back({.first = estimate.sequence,
+                     .frames = 0,
+                     .status = estimate.status,
+                     .reasons = estimate.reasons,
+                     .resets = estimate.reset_counter});
+  }
+  ++spans.back().frames;
 }
 
 void StatisticsRecorder::add_tracked(const Estimate& estimate, Duration wall_time) {

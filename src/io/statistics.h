@@ -21,6 +21,15 @@ struct Percentiles {
 // @return nothing for no samples.
 [[nodiscard]] std::optional<Percentiles> percentiles(std::vector<double> samples);
 
+// Frames in a row of which the same is to be said.
+struct StateSpan {
+  std::int64_t first = 0;  // as the recording numbers them
+  std::int64_t frames = 0;
+  TrackStatus status = TrackStatus::kUnknown;
+  std::uint32_t reasons = kReasonNone;
+  int resets = 0;  // so far
+};
+
 // What happened to the frames of a run. Every input frame is in exactly one of tracked, degraded,
 // lost and bad.
 struct Statistics {
@@ -33,6 +42,7 @@ struct Statistics {
   std::int64_t resets = 0;
   double distance_m = 0.0;                                      // sum of the estimated steps
   std::array<std::int64_t, kRefinementCount> refinements = {};  // by what became of them
+  std::vector<StateSpan> states;                                // of all frames, in their order
   std::optional<double> frame_period_ms;  // mean distance of the stamps; none where that is <= 0
   std::array<std::int64_t, kReasonCount> reasons = {};           // frames that had the reason
   std::optional<Percentiles> frame_ms;                           // of frames that were not bad
@@ -54,6 +64,7 @@ class StatisticsRecorder {
 
  private:
   void add_motion(const Estimate& estimate);
+  void add_state(const Estimate& estimate);
 
   Statistics counts_;
   FrameTime first_stamp_;

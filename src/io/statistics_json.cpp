@@ -10,10 +10,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, kReasonCount> kReasonNames = {
-    "low_texture",   "low_overlap", "not_converged", "ill_conditioned",
-    "residual_high", "dropped",     "no_depth",      "eyes_swapped",
-    "too_dark",      "saturated",   "frozen",        "eyes_disagree",
-    "calib_suspect"};
+    "low_texture", "low_overlap",   "not_converged", "ill_conditioned", "residual_high",
+    "dropped",     "no_depth",      "eyes_swapped",  "too_dark",        "saturated",
+    "frozen",      "eyes_disagree", "calib_suspect"};
 
 template <class T>
 Json json_or_null(const std::optional<T>& value) {
@@ -38,10 +37,46 @@ void put_evaluation(Json& json, const std::optional<Evaluation>& evaluation) {
   };
   json["nees_motion"] = nees(&Evaluation::nees_motion);
   json["nees_pose"] = nees(&Evaluation::nees_pose);
+  const auto confidence = [&](int Confidence::*member) {
+    const bool is_known = evaluation && evaluation->confidence;
+    return is_known ? Json((*evaluation->confidence).*member) : Json(nullptr);
+  };
+  json["confident_frames"] = confidence(&Confidence::frames);
+  json["confidently_wrong"] = confidence(&Confidence::wrong);
   json["end_error_m"] = figure(&Evaluation::end_error_m);
   json["end_error_deg"] = figure(&Evaluation::end_error_deg);
   json["truth_path_m"] = figure(&Evaluation::path_m);
   json["truth_poses"] = figure(&Evaluation::matched_poses);
+}
+
+// "lost" also of frames without a usable pair, whose reason is "dropped".
+const char* state_name(TrackStatus status) {
+  switch (status) {
+    case TrackStatus::kValid:
+      return "valid";
+    case TrackStatus::kDegraded:
+      return "degraded";
+    case TrackStatus::kUnknown:
+    case TrackStatus::kLost:
+      break;
+  }
+  return "lost";
+}
+
+Json states_json(const std::vector<StateSpan>& spans) {
+  Json states = Json::array();
+  for (const StateSpan& span : spans) {
+    Json reasons = Json::array();
+    for (int bit = 0; bit < kReasonCount; ++bit) {
+      if ((span.reasons >> bit & 1u) != 0) reasons.push_back(kReasonNames[bit]);
+    }
+    states.push_back({{"frames", span.frames},
+                      {"first", span.first},
+                      {"state", state_name(span.status)},
+                      {"reasons", reasons},
+                      {"resets", span.resets}});
+  }
+  return states;
 }
 
 void put_counts(Json& json, const Statistics& statistics) {
@@ -52,6 +87,7 @@ void put_counts(Json& json, const Statistics& statistics) {
   json["lost_frames"] = statistics.lost_frames;
   json["bad_frames"] = statistics.bad_frames;
   json["resets"] = statistics.resets;
+  json["states"] = states_json(statistics.states);
   json["distance_m"] = statistics.distance_m;
   for (int bit = 0; bit < kReasonCount; ++bit) {
     json["reasons"][kReasonNames[bit]] = statistics.reasons[bit];

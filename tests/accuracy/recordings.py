@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 KEPT_SCENES = ROOT / "build" / "accuracy" / "scenes"
@@ -16,6 +17,7 @@ class Recording:
     width_px: int  # of the source
     scene: str = ""  # as for `darkling render`; empty where it is a recording
     is_long: bool = True  # 5 m and more: there is a drift
+    truth_noise: str = ""  # as for `replay --truth-noise`, where the truth is not exact
 
 
 # The seeds are used nowhere else: nothing was tuned on these drives.
@@ -55,17 +57,18 @@ def render(program, recording):
     folder.touch()
 
 
-def prepare(program):
+def prepare(program, wanted=RECORDINGS):
     """Renders what is not there yet.
     @return the recordings that are at hand."""
     at_hand = []
-    for recording in RECORDINGS:
+    for recording in wanted:
         folder = folder_of(recording)
         if recording.scene and not is_rendered(folder):
-            print(f"rendering {recording.scene}", flush=True)
+            print(f"rendering {recording.scene}", file=sys.stderr, flush=True)
             render(program, recording)
         if folder.is_dir():
             at_hand.append(recording)
         else:
-            print(f"{recording.name} is not at hand and left out: no {folder}", flush=True)
+            print(f"{recording.name} is not at hand and left out: no {folder}", file=sys.stderr,
+                  flush=True)
     return at_hand

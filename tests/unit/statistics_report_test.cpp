@@ -42,7 +42,8 @@ Evaluation example_evaluation() {
           .rpe_rmse_m = 0.012,
           .rpe_rmse_deg = 0.03,
           .nees_motion = Nees{.count = 8, .mean = 1.25},
-          .nees_pose = std::nullopt};
+          .nees_pose = std::nullopt,
+          .confidence = Confidence{.frames = 6, .wrong = 1}};
 }
 
 TEST(StatisticsJson, HasEveryFixedKey) {
@@ -69,7 +70,7 @@ TEST(StatisticsJson, SaysNullForWhatIsNotKnown) {
   report.statistics.frame_ms.reset();
   const Json json = Json::parse(format_statistics_json(report));
   for (const char* key : {"ate_rmse_m", "drift_percent", "rpe_rmse_m", "heap_calls_after_start",
-                          "peak_rss_bytes", "frame_ms"}) {
+                          "peak_rss_bytes", "frame_ms", "confident_frames", "confidently_wrong"}) {
     EXPECT_TRUE(json[key].is_null()) << key;
   }
 }
@@ -85,6 +86,27 @@ TEST(StatisticsJson, CarriesTheFiguresOfTheEvaluation) {
   EXPECT_EQ(json["rpe_rmse_deg"], 0.03);
   EXPECT_EQ(json["nees_motion"], 1.25);
   EXPECT_TRUE(json["nees_pose"].is_null());
+  EXPECT_EQ(json["confident_frames"], 6);
+  EXPECT_EQ(json["confidently_wrong"], 1);
+}
+
+TEST(StatisticsJson, TellsStatesWithTheirReasons) {
+  RunReport report = example_report();
+  report.statistics.states = {{.first = 0, .frames = 7, .status = TrackStatus::kValid},
+                              {.first = 7,
+                               .frames = 2,
+                               .status = TrackStatus::kLost,
+                               .reasons = kReasonLowTexture | kReasonNoDepth,
+                               .resets = 1}};
+  const Json states = Json::parse(format_statistics_json(report))["states"];
+  ASSERT_EQ(states.size(), 2u);
+  EXPECT_EQ(states[0]["state"], "valid");
+  EXPECT_TRUE(states[0]["reasons"].empty());
+  EXPECT_EQ(states[1]["first"], 7);
+  EXPECT_EQ(states[1]["frames"], 2);
+  EXPECT_EQ(states[1]["state"], "lost");
+  EXPECT_EQ(states[1]["reasons"], Json({"low_texture", "no_depth"}));
+  EXPECT_EQ(states[1]["resets"], 1);
 }
 
 TEST(StatisticsJson, IsValidForANameThatIsNotUtf8) {
@@ -113,6 +135,7 @@ TEST(Summary, ShowsErrorsOnlyAgainstATruth) {
   report.evaluation = example_evaluation();
   EXPECT_THAT(format_summary(report), HasSubstr("0.25 %, 0.0020 deg/m"));
   EXPECT_THAT(format_summary(report), HasSubstr("NEES motion 1.25"));
+  EXPECT_THAT(format_summary(report), HasSubstr("6 sure frames, 1 of them wrong"));
   EXPECT_THAT(format_summary(report), Not(HasSubstr("NEES pose")));
   report.evaluation->drift_percent.reset();
   EXPECT_THAT(format_summary(report), HasSubstr("shorter than 5 m"));

@@ -55,6 +55,26 @@ TEST(StatisticsRecorder, CountsEveryFrameInOneClass) {
   EXPECT_EQ(s.bad_frames, 1);
 }
 
+TEST(StatisticsRecorder, JoinsFramesInARowOfWhichTheSameIsToBeSaid) {
+  StatisticsRecorder recorder;
+  Estimate estimate = estimate_of(TrackStatus::kValid);
+  for (estimate.sequence = 30; estimate.sequence < 34; ++estimate.sequence) {
+    if (estimate.sequence == 32) estimate.status = TrackStatus::kLost;
+    if (estimate.sequence == 33) estimate.reasons = kReasonDropped;
+    recorder.add_tracked(estimate, milliseconds(1));
+  }
+  estimate.reset_counter = 1;
+  recorder.add_skipped(estimate);
+  const std::vector<StateSpan> states = recorder.summarise().states;
+  ASSERT_EQ(states.size(), 4u);
+  EXPECT_EQ(states[0].first, 30);
+  EXPECT_EQ(states[0].frames, 2);
+  EXPECT_EQ(states[1].status, TrackStatus::kLost);
+  EXPECT_EQ(states[2].reasons, kReasonDropped);
+  EXPECT_EQ(states[3].first, 34);
+  EXPECT_EQ(states[3].resets, 1);
+}
+
 TEST(StatisticsRecorder, AddsUpStepsKeyframesAndReasons) {
   StatisticsRecorder recorder;
   for (int i = 0; i < 4; ++i) {
