@@ -130,5 +130,27 @@ TEST(ConfidentAndWrong, IsNoticed) {
   EXPECT_FALSE(is_confident_and_wrong(estimate, away));
 }
 
+TEST(RightEye, IsMissedWithinFiveFramesOfBeingCoveredAndFoundAgain) {
+  const SyntheticRun& run = test::synthetic_run(kCorridor);
+  ASSERT_GE(run.frames.size(), 12u);
+  const auto odometry = Odometry::create({.width_px = 96}, run.rig, KernelTable(), stopped_clock);
+  ASSERT_TRUE(odometry);
+  constexpr std::size_t kCoveredFrom = 2;
+  constexpr std::size_t kCoveredTo = 8;
+  bool is_missed = false;
+  Estimate estimate;
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    KeptFrame frame = run.frames[i];
+    if (i >= kCoveredFrom && i < kCoveredTo) {
+      frame.right = test::flat_frame(run.frames[i], 0).right;
+    }
+    estimate = (*odometry)->track(frame.at(static_cast<std::int64_t>(i)));
+    is_missed |= (estimate.reasons & (kReasonEyesDisagree | kReasonNoDepth)) != 0;
+    EXPECT_TRUE(is_missed || i < kCoveredFrom + 4) << i;
+    EXPECT_TRUE(!is_missed || i >= kCoveredTo || estimate.status != TrackStatus::kValid) << i;
+  }
+  EXPECT_EQ(estimate.status, TrackStatus::kValid) << "the last frames are whole again";
+}
+
 }  // namespace
 }  // namespace darkling
