@@ -27,6 +27,11 @@ void Odometry::reset() {
   s.lost_in_a_row = 0;
   s.hinted.reset();
   s.is_reseed_wanted = false;
+  s.frames_since_look = 0;
+  s.do_eyes_disagree = false;
+  s.misplaced_looks = 0;
+  s.repeats = 0;
+  s.previous_hash = 0;
   s.is_reported_measured = false;
   s.covariance.reset();
   ++s.reset_counter;
