@@ -9,33 +9,39 @@ namespace darkling {
 
 namespace {
 
+struct PairBefore {
+  void claim(ImageSize size) {
+    left.claim(size);
+    right.claim(size);
+    is_there = false;
+  }
+  void store(const InjectedPair& pair) {
+    left.store(pair.left);
+    right.store(pair.right);
+    is_there = true;
+  }
+
+  StoredImage left;
+  StoredImage right;
+  bool is_there = false;
+};
+
 // The pair before the range again and again, under new sequences and stamps; the first of the range
 // where there is none before.
 class Freeze final : public Injector {
  public:
-  void start(ImageSize size) override {
-    left_.claim(size);
-    right_.claim(size);
-    has_pair_ = false;
-  }
-
-  void pass(const InjectedPair& pair) override {
-    left_.store(pair.left);
-    right_.store(pair.right);
-    has_pair_ = true;
-  }
+  void start(ImageSize size) override { before_.claim(size); }
+  void pass(const InjectedPair& pair) override { before_.store(pair); }
 
   FrameFault inject(InjectedPair& pair) override {
-    if (!has_pair_) pass(pair);
-    copy_pixels(left_.view(), pair.left);
-    copy_pixels(right_.view(), pair.right);
+    if (!before_.is_there) pass(pair);
+    copy_pixels(before_.left.view(), pair.left);
+    copy_pixels(before_.right.view(), pair.right);
     return FrameFault::kNone;
   }
 
  private:
-  StoredImage left_;
-  StoredImage right_;
-  bool has_pair_ = false;
+  PairBefore before_;
 };
 
 // The lower half is still that of the pair before, where there is one.
@@ -44,25 +50,16 @@ class Tear final : public Injector {
   explicit Tear(const Injection& injection)
       : is_left_(injection.value != 1.0), is_right_(injection.value != 0.0) {}  // left|right|both
 
-  void start(ImageSize size) override {
-    left_.claim(size);
-    right_.claim(size);
-    has_pair_ = false;
-  }
-
-  void pass(const InjectedPair& pair) override {
-    left_.store(pair.left);
-    right_.store(pair.right);
-    has_pair_ = true;
-  }
+  void start(ImageSize size) override { before_.claim(size); }
+  void pass(const InjectedPair& pair) override { before_.store(pair); }
 
   FrameFault inject(InjectedPair& pair) override {
-    if (!has_pair_) {
+    if (!before_.is_there) {
       pass(pair);
       return FrameFault::kNone;
     }
-    exchange_lower_half(is_left_, pair.left, left_.view());
-    exchange_lower_half(is_right_, pair.right, right_.view());
+    exchange_lower_half(is_left_, pair.left, before_.left.view());
+    exchange_lower_half(is_right_, pair.right, before_.right.view());
     return FrameFault::kNone;
   }
 
@@ -78,9 +75,7 @@ class Tear final : public Injector {
 
   bool is_left_;
   bool is_right_;
-  StoredImage left_;
-  StoredImage right_;
-  bool has_pair_ = false;
+  PairBefore before_;
 };
 
 }  // namespace

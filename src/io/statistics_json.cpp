@@ -9,11 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, kReasonCount> kReasonNames = {
-    "low_texture", "low_overlap",   "not_converged", "ill_conditioned", "residual_high",
-    "dropped",     "no_depth",      "eyes_swapped",  "too_dark",        "saturated",
-    "frozen",      "eyes_disagree", "calib_suspect"};
-
 template <class T>
 Json json_or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);

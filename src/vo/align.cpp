@@ -87,35 +87,6 @@ NormalEquations accumulate(const KernelTable& kernels, const TemplatePoints& poi
   return unpack(sums, focal_px);
 }
 
-// Aligns one level, starting from and improving `alignment`. Leaves the residuals before the last
-// step, which is too small to matter if the level converged.
-void align_level(const KernelTable& kernels, const TemplateLevel& level, const PyramidLevel& frame,
-                 double converged_step_px, const PointResiduals& residuals, Alignment& alignment) {
-  const TemplatePoints& points = level.points;
-  alignment.has_converged = false;
-  for (int i = 0; i < kMaxIterations; ++i) {
-    const int visible = kernels.sample_residuals(points, make_warp(alignment.T_current_key, frame),
-                                                 frame.planes, residuals);
-    if (visible < kMinPoints) break;
-    alignment.inverse_scale = 1.0f / weight_scale_squares(residuals, points.count, visible);
-    const NormalEquations sum =
-        accumulate(kernels, points, residuals, frame.focal_px, alignment.inverse_scale);
-    alignment.information = sum.H;
-    const Vector6 xi = sum.H.ldlt().solve(sum.g);
-    if (!xi.allFinite()) break;
-    // r(ξ) ≈ r - ∇φ J ξ is least at ξ; the template moves by ξ, so the frame moves back.
-    alignment.T_current_key = alignment.T_current_key * Se3::exp(-xi);
-    ++alignment.iterations;
-    const double step_px =
-        xi.head<3>().norm() * static_cast<double>(level.mean_inverse_depth_focal) +
-        xi.tail<3>().norm() * frame.focal_px;
-    if (step_px < converged_step_px) {
-      alignment.has_converged = true;
-      break;
-    }
-  }
-}
-
 }  // namespace
 
 AlignmentScore score_residuals(const TemplatePoints& points, const PointResiduals& residuals,
@@ -185,6 +156,33 @@ PointResiduals allocate_residuals(int points_per_level, Arena& arena) {
   return {array(), array(), array()};
 }
 
+void align_level(const KernelTable& kernels, const TemplateLevel& level, const PyramidLevel& frame,
+                 AlignStop stop, const PointResiduals& residuals, Alignment& alignment) {
+  const TemplatePoints& points = level.points;
+  alignment.has_converged = false;
+  for (int i = 0; i < stop.iterations; ++i) {
+    const int visible = kernels.sample_residuals(points, make_warp(alignment.T_current_key, frame),
+                                                 frame.planes, residuals);
+    if (visible < kMinPoints) break;
+    alignment.inverse_scale = 1.0f / weight_scale_squares(residuals, points.count, visible);
+    const NormalEquations sum =
+        accumulate(kernels, points, residuals, frame.focal_px, alignment.inverse_scale);
+    alignment.information = sum.H;
+    const Vector6 xi = sum.H.ldlt().solve(sum.g);
+    if (!xi.allFinite()) break;
+    // r(ξ) ≈ r - ∇φ J ξ is least at ξ; the template moves by ξ, so the frame moves back.
+    alignment.T_current_key = alignment.T_current_key * Se3::exp(-xi);
+    ++alignment.iterations;
+    const double step_px =
+        xi.head<3>().norm() * static_cast<double>(level.mean_inverse_depth_focal) +
+        xi.tail<3>().norm() * frame.focal_px;
+    if (step_px < stop.step_px) {
+      alignment.has_converged = true;
+      break;
+    }
+  }
+}
+
 Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyframe,
                       const FramePyramid& frame, std::span<const Se3> guesses,
                       const PointResiduals& scratch) {
@@ -193,7 +191,8 @@ Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyfra
   const int coarsest = static_cast<int>(frame.size()) - 1;
   const auto align = [&](int l, Alignment& alignment) {
     align_level(kernels, keyframe.levels[l], frame[l],
-                l == 0 ? kConvergedStepPx : kConvergedCoarseStepPx, scratch, alignment);
+                {l == 0 ? kConvergedStepPx : kConvergedCoarseStepPx, kMaxIterations}, scratch,
+                alignment);
   };
   const auto score = [&](int l, const Alignment& alignment) {
     return score_residuals(keyframe.levels[l].points, scratch,

@@ -62,6 +62,17 @@ struct NormalEquations {
 // A kernel's sums in m and rad.
 [[nodiscard]] NormalEquations unpack(const NormalSums& sums, double focal_px);
 
+// When an alignment of a level ends: with a step smaller than this, or after so many.
+struct AlignStop {
+  double step_px = 0.0;
+  int iterations = 0;
+};
+
+// Aligns one level, starting from and improving `alignment`. Leaves the residuals before the last
+// step, which is too small to matter if the level converged.
+void align_level(const KernelTable& kernels, const TemplateLevel& level, const PyramidLevel& frame,
+                 AlignStop stop, const PointResiduals& residuals, Alignment& alignment);
+
 // Aligns a keyframe's template to the current frame from coarse to fine: Gauss-Newton with the
 // inverse compositional update in disparity space, one robust weight a point.
 //

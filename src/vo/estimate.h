@@ -34,6 +34,10 @@ enum Reason : std::uint32_t {
   kReasonCalibSuspect = 1u << 12,   // the eyes agree, but not on the same height
 };
 inline constexpr int kReasonCount = 13;
+inline constexpr std::array<const char*, kReasonCount> kReasonNames = {
+    "low_texture", "low_overlap",   "not_converged", "ill_conditioned", "residual_high",
+    "dropped",     "no_depth",      "eyes_swapped",  "too_dark",        "saturated",
+    "frozen",      "eyes_disagree", "calib_suspect"};
 
 // The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
 enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect, kRefine };

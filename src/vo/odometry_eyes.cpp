@@ -3,8 +3,6 @@
 // through the left eye only; what is wrong with the right one would show as wrong depth, later.
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "vo/judge.h"
 #include "vo/odometry_state.h"
 
@@ -14,7 +12,7 @@ namespace {
 
 // Frames after which the right eye is looked at even if no keyframe is due.
 constexpr int kFramesBetweenLooks = 5;
-constexpr int kSteps = 3;
+constexpr AlignStop kStop = {.step_px = 0.0, .iterations = 3};
 // Cameras that are where the calibration says are met within 0.12 px of height, and of 0.17 at the
 // edge, in good light; within 0.12 and 0.38 at 15 electrons a pixel (310 and 320 px). One that was
 // turned by half a degree shows half of it: the alignment starts where nothing is turned.
@@ -33,21 +31,11 @@ struct Misplacement {
 Misplacement misplacement_of(const KernelTable& kernels, const TemplateLevel& level,
                              const PyramidLevel& right, const PointResiduals& residuals,
                              const Se3& T_should_key) {
-  Se3 T_right_key = T_should_key;
-  for (int i = 0; i < kSteps; ++i) {
-    const int visible = kernels.sample_residuals(level.points, make_warp(T_right_key, right),
-                                                 right.planes, residuals);
-    NormalSums sums;
-    kernels.normal_equations(level.points, residuals, static_cast<float>(right.focal_px),
-                             1.0f / weight_scale_squares(residuals, level.points.count, visible),
-                             sums);
-    const NormalEquations equations = unpack(sums, right.focal_px);
-    const Vector6 xi = equations.H.ldlt().solve(equations.g);
-    if (!xi.allFinite()) break;
-    T_right_key = T_right_key * Se3::exp(-xi);
-  }
+  Alignment found;
+  found.T_current_key = T_should_key;
+  align_level(kernels, level, right, kStop, residuals, found);
   // A small motion (t, ω) of what is seen moves it down by t_y f / z - f ω_x + ω_z u.
-  const Vector6 off = (T_right_key * T_should_key.inverse()).log();
+  const Vector6 off = (found.T_current_key * T_should_key.inverse()).log();
   return {.height_px = off[1] * static_cast<double>(level.mean_inverse_depth_focal) -
                        off[3] * right.focal_px,
           .roll_rad = off[5]};

@@ -20,20 +20,8 @@ struct NamedReason {
   std::uint32_t bit;
   const char* name;
 };
-constexpr std::array kReasons = std::to_array<NamedReason>({
-    {kReasonLowTexture, "low_texture"},
-    {kReasonLowOverlap, "low_overlap"},
-    {kReasonNotConverged, "not_converged"},
-    {kReasonIllConditioned, "ill_conditioned"},
-    {kReasonResidualHigh, "residual_high"},
-    {kReasonDropped, "dropped"},
-    {kReasonNoDepth, "no_depth"},
-    {kReasonEyesSwapped, "eyes_swapped"},
-    {kReasonTooDark, "too_dark"},
-    {kReasonSaturated, "saturated"},
-    {kReasonFrozen, "frozen"},
-    {kReasonEyesDisagree, "eyes_disagree"},
-    {kReasonCalibSuspect, "calib_suspect"},
+// Beside those of a frame.
+constexpr std::array kServiceReasons = std::to_array<NamedReason>({
     {kReasonNoFrames, "no_frames"},
     {kReasonLate, "late"},
     {kReasonClockStepped, "clock_stepped"},
@@ -70,10 +58,12 @@ ServiceState state_from_message(std::int8_t state) {
 
 std::vector<std::string> names_of_reasons(std::uint32_t reasons) {
   std::vector<std::string> names;
-  for (const NamedReason& reason : kReasons) {
-    if ((reasons & reason.bit) != 0) names.emplace_back(reason.name);
-    reasons &= ~reason.bit;
-  }
+  const auto take = [&](std::uint32_t bit, const char* name) {
+    if ((reasons & bit) != 0) names.emplace_back(name);
+    reasons &= ~bit;
+  };
+  for (int bit = 0; bit < kReasonCount; ++bit) take(1u << bit, kReasonNames[bit]);
+  for (const NamedReason& reason : kServiceReasons) take(reason.bit, reason.name);
   for (std::uint32_t bit = 1; reasons != 0; bit <<= 1) {
     if ((reasons & bit) == 0) continue;
     char name[16];
