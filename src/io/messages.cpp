@@ -35,7 +35,8 @@ static_assert(is_same(update_t::REASON_SATURATED, kReasonSaturated));
 static_assert(is_same(update_t::REASON_FROZEN, kReasonFrozen));
 static_assert(is_same(update_t::REASON_EYES_DISAGREE, kReasonEyesDisagree));
 static_assert(is_same(update_t::REASON_CALIB_SUSPECT, kReasonCalibSuspect));
-static_assert(kReasonCount == 13, "a new reason needs its constant in update_t.lcm");
+static_assert(is_same(update_t::REASON_MOVING_BODY, kReasonMovingBody));
+static_assert(kReasonCount == 14, "a new reason needs its constant in update_t.lcm");
 
 void write_transform(const Se3& T, double (&translation)[3], double (&rotation)[4]) {
   std::copy_n(T.translation().data(), 3, translation);

@@ -156,13 +156,30 @@ PointResiduals allocate_residuals(int points_per_level, Arena& arena) {
   return {array(), array(), array()};
 }
 
+AlignTask task_of_level(int level, std::span<const std::uint8_t> left_out) {
+  return {.step_px = level == 0 ? kConvergedStepPx : kConvergedCoarseStepPx,
+          .iterations = kMaxIterations,
+          .left_out = left_out};
+}
+
+int leave_out(std::span<const std::uint8_t> left_out, int visible,
+              const PointResiduals& residuals) {
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    if (left_out[i] == 0 || residuals.squares[i] < 0.0f) continue;
+    residuals.squares[i] = -1.0f;
+    --visible;
+  }
+  return visible;
+}
+
 void align_level(const KernelTable& kernels, const TemplateLevel& level, const PyramidLevel& frame,
-                 AlignStop stop, const PointResiduals& residuals, Alignment& alignment) {
+                 const AlignTask& task, const PointResiduals& residuals, Alignment& alignment) {
   const TemplatePoints& points = level.points;
   alignment.has_converged = false;
-  for (int i = 0; i < stop.iterations; ++i) {
-    const int visible = kernels.sample_residuals(points, make_warp(alignment.T_current_key, frame),
+  for (int i = 0; i < task.iterations; ++i) {
+    const int sampled = kernels.sample_residuals(points, make_warp(alignment.T_current_key, frame),
                                                  frame.planes, residuals);
+    const int visible = leave_out(task.left_out, sampled, residuals);
     if (visible < kMinPoints) break;
     alignment.inverse_scale = 1.0f / weight_scale_squares(residuals, points.count, visible);
     const NormalEquations sum =
@@ -176,7 +193,7 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
     const double step_px =
         xi.head<3>().norm() * static_cast<double>(level.mean_inverse_depth_focal) +
         xi.tail<3>().norm() * frame.focal_px;
-    if (step_px < stop.step_px) {
+    if (step_px < task.step_px) {
       alignment.has_converged = true;
       break;
     }
@@ -190,9 +207,7 @@ Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyfra
   CHECK(keyframe.levels.size() == frame.size(), "template and frame have the same levels");
   const int coarsest = static_cast<int>(frame.size()) - 1;
   const auto align = [&](int l, Alignment& alignment) {
-    align_level(kernels, keyframe.levels[l], frame[l],
-                {l == 0 ? kConvergedStepPx : kConvergedCoarseStepPx, kMaxIterations}, scratch,
-                alignment);
+    align_level(kernels, keyframe.levels[l], frame[l], task_of_level(l), scratch, alignment);
   };
   const auto score = [&](int l, const Alignment& alignment) {
     return score_residuals(keyframe.levels[l].points, scratch,

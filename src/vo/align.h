@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "base/arena.h"
@@ -62,16 +63,24 @@ struct NormalEquations {
 // A kernel's sums in m and rad.
 [[nodiscard]] NormalEquations unpack(const NormalSums& sums, double focal_px);
 
-// When an alignment of a level ends: with a step smaller than this, or after so many.
-struct AlignStop {
+// How a level is aligned: until a step is smaller than this, or for so many, and by which points.
+struct AlignTask {
   double step_px = 0.0;
   int iterations = 0;
+  std::span<const std::uint8_t> left_out = {};  // of each point: not 0 if it has no say; empty: all
 };
+
+// As align_frame() aligns a level.
+[[nodiscard]] AlignTask task_of_level(int level, std::span<const std::uint8_t> left_out = {});
+
+// Takes points out of what was sampled, as if they were not seen.
+// @return how many are still seen of those that were, `visible`.
+int leave_out(std::span<const std::uint8_t> left_out, int visible, const PointResiduals& residuals);
 
 // Aligns one level, starting from and improving `alignment`. Leaves the residuals before the last
 // step, which is too small to matter if the level converged.
 void align_level(const KernelTable& kernels, const TemplateLevel& level, const PyramidLevel& frame,
-                 AlignStop stop, const PointResiduals& residuals, Alignment& alignment);
+                 const AlignTask& task, const PointResiduals& residuals, Alignment& alignment);
 
 // Aligns a keyframe's template to the current frame from coarse to fine: Gauss-Newton with the
 // inverse compositional update in disparity space, one robust weight a point.

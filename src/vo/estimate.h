@@ -32,12 +32,13 @@ enum Reason : std::uint32_t {
   kReasonFrozen = 1u << 10,         // the same image again and again
   kReasonEyesDisagree = 1u << 11,   // the right eye does not see what the left one does
   kReasonCalibSuspect = 1u << 12,   // the eyes agree, but not on the same height
+  kReasonMovingBody = 1u << 13,     // a good part of what is seen moves otherwise than the rest
 };
-inline constexpr int kReasonCount = 13;
+inline constexpr int kReasonCount = 14;
 inline constexpr std::array<const char*, kReasonCount> kReasonNames = {
     "low_texture", "low_overlap",   "not_converged", "ill_conditioned", "residual_high",
     "dropped",     "no_depth",      "eyes_swapped",  "too_dark",        "saturated",
-    "frozen",      "eyes_disagree", "calib_suspect"};
+    "frozen",      "eyes_disagree", "calib_suspect", "moving_body"};
 
 // The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
 enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect, kRefine };

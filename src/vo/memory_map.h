@@ -41,6 +41,8 @@ inline constexpr std::array kBufferRows = std::to_array<BufferRow>({
     {"columns of cells", "select", "select", "scratch of a level"},
     {"point candidates", "select", "select", "scratch of a level"},
     {"point residuals", "track", "track", "scratch of a level: three arrays"},
+    {"residuals of a motion", "track", "track", "scratch: of the finest level"},
+    {"motions of points", "track", "track", "scratch: which of two motions, a byte each"},
     {"point influences", "track", "track", "of the frame before, and scratch: seven arrays"},
     {"influence tiles", "track", "track", "scratch: sums of the points of a tile"},
     {"template points", "select", "track", "of the keyframe: every level, six arrays"},

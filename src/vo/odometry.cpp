@@ -17,6 +17,10 @@ namespace {
 constexpr int kLostFramesBeforeReset = 3;
 // The same image this often more is no camera that stands still: its noise would differ.
 constexpr int kFrozenRepeats = 2;
+// Share of points that fit nothing above which a second motion is looked for. A body is noticed by
+// this when it moves by some pixels more than the world; then it is kept an eye on.
+constexpr double kSuspiciousMisfits = 0.08;
+constexpr int kFramesToWatch = 20;
 // Beyond these, a motion that was measured says nothing of where the vehicle is.
 constexpr std::int64_t kMaxPredictedFrames = 10;
 // Of what refinement moved the keyframe by, the published pose follows this share a frame. At once
@@ -81,6 +85,22 @@ void Odometry::State::note_repeats(const ImageMeasure& measure, Estimate& estima
   previous_hash = measure.hash;
   if (repeats < kFrozenRepeats) return;
   estimate.reasons |= kReasonFrozen;
+  estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+}
+
+// Looks for a second motion where there may be one: much does not fit, or there was one just now.
+void Odometry::State::watch_for_bodies(std::span<const Se3> guesses, Alignment& alignment,
+                                       Estimate& estimate) {
+  if (frames_to_watch == 0 &&
+      share_of_misfits(keyframe.levels[0].points, residuals) < kSuspiciousMisfits) {
+    return;
+  }
+  frames_to_watch = std::max(frames_to_watch - 1, 0);
+  const MotionCount count =
+      separate_motions({kernels, keyframe, left, guesses, residuals, motions}, alignment);
+  if (count == MotionCount::kOne) return;
+  frames_to_watch = kFramesToWatch;
+  estimate.reasons |= kReasonMovingBody;
   estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
 }
 
@@ -165,8 +185,9 @@ Estimate Odometry::track(const StereoFrame& frame) {
   Alignment alignment;
   {
     StageTimer timer(s.read_clock, estimate, Stage::kTrack);
-    alignment = align_frame(s.kernels, s.keyframe, s.left, std::span(guesses).first(guess_count),
-                            s.residuals);
+    const std::span from = std::span(guesses).first(guess_count);
+    alignment = align_frame(s.kernels, s.keyframe, s.left, from, s.residuals);
+    s.watch_for_bodies(from, alignment, estimate);
   }
   const Judgement judgement = judge_alignment(alignment, s.keyframe.levels[0], s.rig.focal_px);
   estimate.status = std::max(estimate.status, judgement.status);

@@ -55,6 +55,7 @@ Odometry::State::MapMemory Odometry::State::allocate_buffers(Arena& from) {
   disparities = allocate_disparities(rig.width, rig.height, levels, dense_level, from);
   selector = allocate_point_selector(rig, config.points_per_level, from);
   residuals = allocate_residuals(config.points_per_level, from);
+  motions = allocate_motion_scratch(config.points_per_level, from);
   influences = allocate_influences(config.points_per_level, from);
   keyframe = allocate_template(levels, config.points_per_level, from);
   if (config.refinement) {

@@ -12,7 +12,7 @@ namespace {
 
 // Frames after which the right eye is looked at even if no keyframe is due.
 constexpr int kFramesBetweenLooks = 5;
-constexpr AlignStop kStop = {.step_px = 0.0, .iterations = 3};
+constexpr int kAlignSteps = 3;
 // Cameras that are where the calibration says are met within 0.12 px of height, and of 0.17 at the
 // edge, in good light; within 0.12 and 0.38 at 15 electrons a pixel (310 and 320 px). One that was
 // turned by half a degree shows half of it: the alignment starts where nothing is turned.
@@ -33,7 +33,7 @@ Misplacement misplacement_of(const KernelTable& kernels, const TemplateLevel& le
                              const Se3& T_should_key) {
   Alignment found;
   found.T_current_key = T_should_key;
-  align_level(kernels, level, right, kStop, residuals, found);
+  align_level(kernels, level, right, {.iterations = kAlignSteps}, residuals, found);
   // A small motion (t, ω) of what is seen moves it down by t_y f / z - f ω_x + ω_z u.
   const Vector6 off = (found.T_current_key * T_should_key.inverse()).log();
   return {.height_px = off[1] * static_cast<double>(level.mean_inverse_depth_focal) -

@@ -14,6 +14,7 @@
 #include "vo/odometry.h"
 #include "vo/refine_window.h"
 #include "vo/refinement_runner.h"
+#include "vo/separate_motions.h"
 #include "vo/window.h"
 
 namespace darkling {
@@ -35,6 +36,7 @@ struct Odometry::State {
   DisparityPyramid disparities;
   PointSelector selector;
   PointResiduals residuals;
+  MotionScratch motions;
   PointInfluences influences;
   KeyframeTemplate keyframe;
   PointImage point_image;
@@ -64,7 +66,8 @@ struct Odometry::State {
   bool do_eyes_disagree = false;  // as far as the last look could tell
   int misplaced_looks = 0;        // in a row
   std::uint64_t previous_hash = 0;
-  int repeats = 0;  // of the same image, in a row
+  int repeats = 0;          // of the same image, in a row
+  int frames_to_watch = 0;  // for a body that passes before the cameras
   PoseCovariance covariance;
   bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to
 
@@ -87,6 +90,7 @@ struct Odometry::State {
 
   ImageMeasure prepare_left(const StereoFrame& frame, Estimate& estimate);
   ImageMeasure prepare_right(const StereoFrame& frame, Estimate& estimate);
+  void watch_for_bodies(std::span<const Se3> guesses, Alignment& alignment, Estimate& estimate);
   void note_repeats(const ImageMeasure& measure, Estimate& estimate);
   void compare_eyes(const Se3& T_left_key);
   void look_at_right_eye(const StereoFrame& frame, const Se3& T_left_key, Estimate& estimate);

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vo/separate_motions.h"
+
+#include <algorithm>
+
+namespace darkling {
+
+namespace {
+
+// Squares of descriptor distances, root mean square over the planes in 0…255: at most this far a
+// point lies on what it is of, and from there on it does not. Unrelated places are about 110 apart.
+constexpr float kMaxFitSquares = kPlaneCount * 40.0f * 40.0f;
+constexpr float kMinMisfitSquares = kPlaneCount * 60.0f * 60.0f;
+// A point goes with a motion that leaves it less than half the squares that the other one does.
+// Noise is in both, so that it makes a point undecided and not wrong.
+constexpr float kClearlyBetter = 0.5f;
+// How much nearer than the mean of its level a point is left out of the search for what lies
+// behind. Tried at 0.8, 1 and 1.4, too: below, a quarry's distant half hardly tells a translation;
+// above, a board a metre away stays in.
+constexpr float kNear = 1.2f;
+// Of the points in the image: so many go with a motion that is one …
+constexpr double kMinSupport = 0.1;
+// … and at most so many times as many with the first one: in a quarry's steady light, a seventh of
+// the points agree on another motion than the rest, by chance and by clouds.
+constexpr int kMaxImbalance = 3;
+
+// Those that go with one motion and not with the other.
+struct Support {
+  int count = 0;
+  double inverse_depths = 0.0;  // sum, f / z
+
+  // Of the surface they are on, but for a factor: what a pixel shows grows with z².
+  [[nodiscard]] double area() const {
+    const double mean_depth = count / std::max(inverse_depths, 1e-9);
+    return count * mean_depth * mean_depth;
+  }
+};
+
+struct Supports {
+  int visible = 0;  // points that either puts into the image
+  Support first;
+  Support second;
+};
+
+bool is_supported(const Support& support, int visible) {
+  return support.count > kMinSupport * visible;
+}
+
+PointWarp warp_at(const MotionSearch& search, int level, const Alignment& alignment) {
+  return make_warp(alignment.T_current_key, search.frame[level]);
+}
+
+void sample(const MotionSearch& search, int level, const Alignment& alignment) {
+  search.kernels.sample_residuals(search.keyframe.levels[level].points,
+                                  warp_at(search, level, alignment), search.frame[level].planes,
+                                  search.residuals);
+}
+
+// Of all points.
+AlignmentScore score(const MotionSearch& search, int level, const Alignment& alignment) {
+  sample(search, level, alignment);
+  return score_residuals(search.keyframe.levels[level].points, search.residuals,
+                         warp_at(search, level, alignment), search.frame[level].planes);
+}
+
+std::span<const std::uint8_t> choose_near(const TemplateLevel& level,
+                                          std::span<std::uint8_t> chosen) {
+  const float limit = kNear * level.mean_inverse_depth_focal;
+  for (int i = 0; i < level.points.count; ++i) {
+    chosen[static_cast<std::size_t>(i)] = level.points.inverse_depth_focal[i] > limit ? 1 : 0;
+  }
+  return chosen.first(static_cast<std::size_t>(level.points.count));
+}
+
+std::span<const std::uint8_t> choose_fitting(const MotionSearch& search, int level,
+                                             const Alignment& alignment,
+                                             std::span<std::uint8_t> chosen) {
+  sample(search, level, alignment);
+  const int count = search.keyframe.levels[level].points.count;
+  for (int i = 0; i < count; ++i) {
+    const float squares = search.residuals.squares[i];
+    chosen[static_cast<std::size_t>(i)] = squares >= 0.0f && squares < kMaxFitSquares ? 1 : 0;
+  }
+  return chosen.first(static_cast<std::size_t>(count));
+}
+
+// As align_frame(), without the points that `choose(level)` gives, and to a tenth of a pixel only.
+template <typename Choose>
+Alignment align_without(const MotionSearch& search, const Choose& choose) {
+  const auto align = [&search, &choose](int level, Alignment& alignment) {
+    align_level(search.kernels, search.keyframe.levels[level], search.frame[level],
+                task_of_level(std::max(level, 1), choose(level)), search.residuals, alignment);
+  };
+  const int coarsest = static_cast<int>(search.frame.size()) - 1;
+  Alignment best;
+  int iterations = 0;
+  for (std::size_t i = 0; i < search.guesses.size(); ++i) {
+    Alignment trial;
+    trial.T_current_key = search.guesses[i];
+    align(coarsest, trial);
+    trial.score = score(search, coarsest, trial);
+    iterations += trial.iterations;
+    if (i == 0 || trial.score.rank() < best.score.rank()) best = trial;
+  }
+  best.iterations = iterations;
+  for (int l = coarsest - 1; l >= 0; --l) align(l, best);
+  best.score = score(search, 0, best);
+  return best;
+}
+
+Supports divide_points(const MotionSearch& search, const Alignment& first,
+                       const Alignment& second) {
+  const TemplatePoints& points = search.keyframe.levels[0].points;
+  const MotionScratch& of = search.scratch;
+  sample(search, 0, first);
+  std::copy_n(search.residuals.squares, points.count, of.squares.begin());
+  sample(search, 0, second);
+  const auto is_better = [](float squares, float other) {
+    return squares >= 0.0f && squares < kMaxFitSquares &&
+           (other < 0.0f || squares < kClearlyBetter * other);
+  };
+  Supports supports;
+  for (int i = 0; i < points.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const float by_first = of.squares[k];
+    const float by_second = search.residuals.squares[i];
+    supports.visible += by_first >= 0.0f || by_second >= 0.0f ? 1 : 0;
+    of.by_first[k] = is_better(by_first, by_second) ? 1 : 0;
+    of.by_second[k] = is_better(by_second, by_first) ? 1 : 0;
+    for (Support* support : {of.by_first[k] != 0 ? &supports.first : nullptr,
+                             of.by_second[k] != 0 ? &supports.second : nullptr}) {
+      if (support == nullptr) continue;
+      ++support->count;
+      support->inverse_depths += static_cast<double>(points.inverse_depth_focal[i]);
+    }
+  }
+  return supports;
+}
+
+struct Second {
+  Alignment alignment;
+  Supports by;
+};
+
+// The motion of what `first` is not of: of those found that points go with, the one that ranks
+// better. Its iterations include all that were needed to find it.
+Second find_second(const MotionSearch& search, const Alignment& first) {
+  const std::span<std::uint8_t> chosen = search.scratch.by_first;
+  const Alignment behind = align_without(search, [&search, chosen](int level) {
+    return choose_near(search.keyframe.levels[level], chosen);
+  });
+  const Alignment rest = align_without(search, [&search, &first, chosen](int level) {
+    return choose_fitting(search, level, first, chosen);
+  });
+  const bool is_behind_better = behind.score.rank() < rest.score.rank();
+  Second second;
+  for (const Alignment& found :
+       {is_behind_better ? behind : rest, is_behind_better ? rest : behind}) {
+    second = {found, divide_points(search, first, found)};
+    if (is_supported(second.by.second, second.by.visible)) break;
+  }
+  second.alignment.iterations = behind.iterations + rest.iterations;
+  return second;
+}
+
+}  // namespace
+
+MotionScratch allocate_motion_scratch(int points_per_level, Arena& arena) {
+  const int count = round_up_to_lanes(points_per_level);
+  const auto flags = [&] { return arena.allocate<std::uint8_t>(count, "motions of points"); };
+  return {arena.allocate<float>(count, "residuals of a motion"), flags(), flags()};
+}
+
+double share_of_misfits(const TemplatePoints& points, const PointResiduals& residuals) {
+  int visible = 0;
+  int misfits = 0;
+  for (int i = 0; i < points.count; ++i) {
+    visible += residuals.squares[i] >= 0.0f ? 1 : 0;
+    misfits += residuals.squares[i] > kMinMisfitSquares ? 1 : 0;
+  }
+  return static_cast<double>(misfits) / std::max(visible, 1);
+}
+
+MotionCount separate_motions(const MotionSearch& search, Alignment& alignment) {
+  const Alignment first = alignment;
+  const auto [second, by] = find_second(search, first);
+  const int iterations = first.iterations + second.iterations;
+  if (!is_supported(by.second, by.visible) || kMaxImbalance * by.second.count < by.first.count) {
+    sample(search, 0, alignment);
+    alignment.iterations = iterations;
+    return MotionCount::kOne;
+  }
+  const bool is_second_world = by.second.area() > by.first.area();
+  alignment = is_second_world ? second : first;
+  alignment.iterations = iterations;
+  const auto count = static_cast<std::size_t>(search.keyframe.levels[0].points.count);
+  const std::span<const std::uint8_t> body =
+      (is_second_world ? search.scratch.by_first : search.scratch.by_second).first(count);
+  align_level(search.kernels, search.keyframe.levels[0], search.frame[0], task_of_level(0, body),
+              search.residuals, alignment);
+  alignment.score = score(search, 0, alignment);
+  leave_out(body, alignment.score.visible_count, search.residuals);
+  return is_supported(by.first, by.visible) ? MotionCount::kTwo : MotionCount::kOne;
+}
+
+}  // namespace darkling
