@@ -24,16 +24,15 @@ constexpr double kMinSupport = 0.1;
 // the points agree on another motion than the rest, by chance and by clouds.
 constexpr int kMaxImbalance = 3;
 
+// A point of the motion that lies behind counts for so many of the one before it: what covers
+// something is nearer than that. Nor is it more, as the distance alone may agree on what is wrong:
+// the sky with the lens's own shading, in a quarry, a third as many points as the ground.
+constexpr double kPointsBehind = 2.5;
+
 // Those that go with one motion and not with the other.
 struct Support {
   int count = 0;
   double inverse_depths = 0.0;  // sum, f / z
-
-  // Of the surface they are on, but for a factor: what a pixel shows grows with z².
-  [[nodiscard]] double area() const {
-    const double mean_depth = count / std::max(inverse_depths, 1e-9);
-    return count * mean_depth * mean_depth;
-  }
 };
 
 struct Supports {
@@ -44,6 +43,13 @@ struct Supports {
 
 bool is_supported(const Support& support, int visible) {
   return support.count > kMinSupport * visible;
+}
+
+bool is_world(const Support& support, const Support& other) {
+  const bool is_behind =
+      support.inverse_depths * other.count < other.inverse_depths * support.count;
+  return is_behind ? kPointsBehind * support.count > other.count
+                   : support.count > kPointsBehind * other.count;
 }
 
 PointWarp warp_at(const MotionSearch& search, int level, const Alignment& alignment) {
@@ -190,7 +196,7 @@ MotionCount separate_motions(const MotionSearch& search, Alignment& alignment) {
     alignment.iterations = iterations;
     return MotionCount::kOne;
   }
-  const bool is_second_world = by.second.area() > by.first.area();
+  const bool is_second_world = is_world(by.second, by.first);
   alignment = is_second_world ? second : first;
   alignment.iterations = iterations;
   const auto count = static_cast<std::size_t>(search.keyframe.levels[0].points.count);

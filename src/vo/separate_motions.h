@@ -43,10 +43,9 @@ struct MotionSearch {
 // body does, with a good score.
 //
 // The second motion is found by aligning without the points nearer than most, and by aligning
-// without those that go with the first one; of these, what ranks better counts. Each point then
-// goes with the motion it fits clearly better. The world's is the motion of the larger surface, a
-// point standing for an area that grows with the square of its depth: what covers something is
-// before it.
+// without those that go with the first one; of these, the one that ranks better counts. A point
+// goes with the motion it fits clearly better. The world's is the motion of more points, those of
+// the one that lies behind counting for more: what covers something is before it.
 //
 // @param alignment  as align_frame() returned it. Afterwards its score still is of all points, but
 //                   `search.residuals` count those of the other motion as not seen.
