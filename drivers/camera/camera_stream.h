@@ -28,6 +28,7 @@ struct [[nodiscard]] TakenFrame {
   int buffer = -1;
   std::uint32_t sequence = 0;  // as the device counts
   FrameTime stamp = {};        // mid-exposure
+  bool is_of_future = false;   // the device's own stamp, which its arrival gave way to
 };
 
 // One camera, set up and streaming into buffers that it shares with us. Whatever it does, it either

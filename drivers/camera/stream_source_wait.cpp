@@ -73,6 +73,7 @@ TakenFrame StreamSource::take_from(std::size_t camera, std::int64_t& index) {
   index = indices_[camera].advance(frame.sequence);
   stats_.dropped_by_device += indices_[camera].lost();
   stats_.device_errors += frame.taken == Taken::kBadBuffer ? 1 : 0;
+  stats_.stamps_of_future += frame.is_of_future ? 1 : 0;
   published_stats_.store(stats_);
   return frame;
 }

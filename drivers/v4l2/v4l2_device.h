@@ -9,6 +9,7 @@
 
 #include "base/camera_config.h"
 #include "base/result.h"
+#include "drivers/camera/arrival_stamps.h"
 #include "drivers/camera/camera_stream.h"
 #include "drivers/v4l2/camera_controls.h"
 #include "drivers/v4l2/capture_stamp.h"
@@ -64,6 +65,8 @@ class V4l2Device {
   Result<void> claim_buffers();
   Result<void> map_buffer(std::uint32_t index);
   int queue(int buffer);
+  // Says in `frame` when the buffer was exposed.
+  void stamp(const v4l2_buffer& buffer, TakenFrame& frame);
   // @return whether the buffer holds a whole image; may lose the device.
   bool is_whole(std::uint32_t flags, std::uint32_t bytes_used);
   void lose(const char* call, int error);
@@ -77,6 +80,7 @@ class V4l2Device {
   bool is_automatic_ = false;
   MonotonicTime exposure_read_at_ = {};
   StampSource stamp_source_ = StampSource::kUnknown;
+  ArrivalStamps arrivals_;
   bool is_streaming_ = false;
   const char* lost_call_ = nullptr;
   int lost_error_ = 0;
