@@ -104,7 +104,7 @@ constexpr std::array kKeys = std::to_array<ConfigKey>({
 
     {"lcm_url", "udpm://GROUP:PORT?ttl=N", 0, 0, member<kService, &S::lcm_url>(),
      "Where messages are published; with ttl=0 they stay on this machine."},
-    {"channel_prefix", "text", 0, 0, member<kService, &S::channel_prefix>(),
+    {"channel_prefix", "text of up to 53 characters", 0, 53, member<kService, &S::channel_prefix>(),
      "Put before the name of every channel, published or listened to."},
     {"bot_core_pose", "", 0, 0, member<kService, &S::bot_core_pose>(),
      "Whether the pose is published as bot_core.pose_t too, on the channel POSE."},
