@@ -2,6 +2,7 @@
 // What a kind of camera has to offer so that StreamSource makes stereo pairs of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -45,6 +46,8 @@ class CameraStream {
   virtual void give_back(int buffer) = 0;
   // Where the image begins, of a buffer that was taken and not given back.
   [[nodiscard]] virtual const std::uint8_t* pixels(int buffer) const = 0;
+  // How many bytes there are, which differs from image to image where they are compressed.
+  [[nodiscard]] virtual std::size_t filled_bytes(int /*buffer*/) const { return format().bytes; }
   // Asks the camera again what it chose by itself, when the last answer is old.
   virtual void refresh_exposure() {}
 

@@ -135,6 +135,7 @@ TakenFrame V4l2Device::take() {
   }
   const int index = static_cast<int>(buffer.index);
   is_queued_[index] = false;
+  filled_bytes_[index] = std::min<std::size_t>(buffer.bytesused, buffers_[index].size());
   TakenFrame frame = {.taken = Taken::kFrame, .buffer = index, .sequence = buffer.sequence};
   stamp(buffer, frame);
   if (!is_whole(buffer.flags, buffer.bytesused)) {

@@ -54,6 +54,8 @@ class V4l2Device {
   // How many buffers the device has. With none, poll() has nothing to wait for.
   [[nodiscard]] int queued_count() const;
   [[nodiscard]] const std::uint8_t* pixels(int buffer) const { return buffers_[buffer].bytes(); }
+  // How many bytes of a buffer that was taken the device says it has filled, and are there.
+  [[nodiscard]] std::size_t filled_bytes(int buffer) const { return filled_bytes_.at(buffer); }
   [[nodiscard]] const ImageFormat& format() const { return format_; }
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   // All but the skew.
@@ -74,6 +76,7 @@ class V4l2Device {
   DeviceDescriptor descriptor_;        // closed last:
   std::vector<MappedBuffer> buffers_;  // members go in reverse order
   std::array<bool, kMaxBufferCount> is_queued_ = {};
+  std::array<std::size_t, kMaxBufferCount> filled_bytes_ = {};
   ImageFormat format_;
   Duration period_ = Duration::zero();  // 0: not known
   ExposureReading exposure_;

@@ -44,8 +44,9 @@ constexpr std::array kDescriptorWords = std::to_array<std::string_view>({"bitpla
 constexpr std::array kStereoWords = std::to_array<std::string_view>({"semi_global", "block"});
 constexpr std::array kLayoutWords =
     std::to_array<std::string_view>({"two_devices", "side_by_side", "top_bottom"});
-constexpr std::array kFormatWords = std::to_array<std::string_view>(
-    {"any", "grey", "y10", "y10p", "y12", "y16", "yuyv", "uyvy", "nv12", "bayer", "rgb", "bgr"});
+constexpr std::array kFormatWords =
+    std::to_array<std::string_view>({"any", "grey", "y10", "y10p", "y12", "y16", "yuyv", "uyvy",
+                                     "nv12", "bayer", "rgb", "bgr", "mjpeg"});
 
 // name, unit, least, most, field, what it is, whether 0 is allowed besides, limits' names.
 constexpr std::array kKeys = std::to_array<ConfigKey>({
