@@ -6,6 +6,7 @@
 #   deploy/install-deps.sh         the same, and what the tests need
 #   deploy/install-deps.sh cross   the same, and what cross builds need
 #   deploy/install-deps.sh vm      what the tests need, and what those in a virtual machine need
+#   deploy/install-deps.sh fuzz    what building needs, and what the fuzzers need
 #   deploy/install-deps.sh measure what building needs, and what plots of the accuracy need
 set -euo pipefail
 
@@ -15,9 +16,10 @@ case "${1:-test}" in
   test) groups='^(build|test|native)$' ;;
   cross) groups='^(build|test|native|cross)$' ;;
   vm) groups='^(build|test|native|vm)$' ;;
+  fuzz) groups='^(build|fuzz)$' ;;
   measure) groups='^(build|measure)$' ;;
   *)
-    echo "install-deps.sh: unknown group \`$1\`; use build, test, cross, vm or measure" >&2
+    echo "install-deps.sh: unknown group \`$1\`; use build, test, cross, vm, fuzz or measure" >&2
     exit 64
     ;;
 esac

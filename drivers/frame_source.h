@@ -89,6 +89,8 @@ struct SourceStats {
   // Of two devices, frames of either; such a frame's partner makes its pair an unpaired one.
   std::int64_t dropped_by_device = 0;
   std::int64_t device_errors = 0;  // buffers that the device marked as bad or filled too little
+  // Buffers that a device said to be of a time still to come; they are stamped by their arrival.
+  std::int64_t stamps_of_future = 0;
 };
 
 // Where a camera's stamps come from, best last.

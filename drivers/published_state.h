@@ -21,6 +21,7 @@ class PublishedStats {
     stamps_not_increasing_.store(stats.stamps_not_increasing, kRelaxed);
     dropped_by_device_.store(stats.dropped_by_device, kRelaxed);
     device_errors_.store(stats.device_errors, kRelaxed);
+    stamps_of_future_.store(stats.stamps_of_future, kRelaxed);
   }
   [[nodiscard]] SourceStats load() const {
     return {.delivered = delivered_.load(kRelaxed),
@@ -29,7 +30,8 @@ class PublishedStats {
             .unpaired = unpaired_.load(kRelaxed),
             .stamps_not_increasing = stamps_not_increasing_.load(kRelaxed),
             .dropped_by_device = dropped_by_device_.load(kRelaxed),
-            .device_errors = device_errors_.load(kRelaxed)};
+            .device_errors = device_errors_.load(kRelaxed),
+            .stamps_of_future = stamps_of_future_.load(kRelaxed)};
   }
 
  private:
@@ -42,6 +44,7 @@ class PublishedStats {
   std::atomic<std::int64_t> stamps_not_increasing_ = 0;
   std::atomic<std::int64_t> dropped_by_device_ = 0;
   std::atomic<std::int64_t> device_errors_ = 0;
+  std::atomic<std::int64_t> stamps_of_future_ = 0;
 };
 
 class PublishedCamera {

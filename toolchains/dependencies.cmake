@@ -36,6 +36,12 @@ else()
   message(STATUS "Built without libsystemd-dev: no notification of systemd")
 endif()
 
+# Without it cameras that send JPEG images only are refused.
+find_package(JPEG)
+if(NOT JPEG_FOUND)
+  message(STATUS "Built without libjpeg62-turbo-dev: no MJPEG of cameras")
+endif()
+
 # Without it there are no cameras through libcamera.
 find_path(LIBCAMERA_INCLUDE_DIR libcamera/camera_manager.h PATH_SUFFIXES libcamera)
 find_library(LIBCAMERA_LIBRARY camera)

@@ -39,6 +39,15 @@ if(DARKLING_SANITIZE)
   target_link_options(darkling_flags INTERFACE -fsanitize=${DARKLING_SANITIZE})
 endif()
 if(DARKLING_FUZZ)
+  # clang can be there without the library of its fuzzer.
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_FLAGS -fsanitize=fuzzer)
+  check_cxx_source_compiles("
+    extern \"C\" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned long) { return 0; }"
+    DARKLING_HAS_LIBFUZZER)
+  unset(CMAKE_REQUIRED_FLAGS)
+endif()
+if(DARKLING_FUZZ AND DARKLING_HAS_LIBFUZZER)
   target_compile_options(darkling_flags INTERFACE -fsanitize=fuzzer-no-link)
   target_link_options(darkling_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()

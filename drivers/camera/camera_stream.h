@@ -2,6 +2,7 @@
 // What a kind of camera has to offer so that StreamSource makes stereo pairs of it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -28,6 +29,7 @@ struct [[nodiscard]] TakenFrame {
   int buffer = -1;
   std::uint32_t sequence = 0;  // as the device counts
   FrameTime stamp = {};        // mid-exposure
+  bool is_of_future = false;   // the device's own stamp, which its arrival gave way to
 };
 
 // One camera, set up and streaming into buffers that it shares with us. Whatever it does, it either
@@ -44,6 +46,8 @@ class CameraStream {
   virtual void give_back(int buffer) = 0;
   // Where the image begins, of a buffer that was taken and not given back.
   [[nodiscard]] virtual const std::uint8_t* pixels(int buffer) const = 0;
+  // How many bytes there are, which differs from image to image where they are compressed.
+  [[nodiscard]] virtual std::size_t filled_bytes(int /*buffer*/) const { return format().bytes; }
   // Asks the camera again what it chose by itself, when the last answer is old.
   virtual void refresh_exposure() {}
 

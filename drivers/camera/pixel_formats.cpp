@@ -12,6 +12,8 @@ namespace darkling {
 
 namespace {
 
+constexpr std::size_t kLeastJpeg_bytes = 4;  // its beginning and its end
+
 struct Format {
   PixelFormat format;
   const char* name;
@@ -32,6 +34,7 @@ constexpr std::array<Format, kPixelFormats.size()> kFormats = {{
      {V4L2_PIX_FMT_SBGGR8, V4L2_PIX_FMT_SGBRG8, V4L2_PIX_FMT_SGRBG8, V4L2_PIX_FMT_SRGGB8}},
     {PixelFormat::kRgb, "rgb", {V4L2_PIX_FMT_RGB24}},
     {PixelFormat::kBgr, "bgr", {V4L2_PIX_FMT_BGR24}},
+    {PixelFormat::kMjpeg, "mjpeg", {V4L2_PIX_FMT_MJPEG}},
 }};
 
 const Format* find_format(PixelFormat format) {
@@ -113,10 +116,11 @@ void take_row(PixelFormat format, const std::uint8_t* source, std::ptrdiff_t str
     case PixelFormat::kBgr:
       take_colours(source, 2, 0, grey);
       return;
+    case PixelFormat::kMjpeg:
     case PixelFormat::kAny:
       break;
   }
-  CHECK(false, "an image is of one format, not of any");
+  CHECK(false, "an image that is read row by row is of one format, and not compressed");
 }
 
 }  // namespace
@@ -154,6 +158,10 @@ bool is_grey_in_place(PixelFormat format) {
   return format == PixelFormat::kGrey || format == PixelFormat::kNv12;
 }
 
+bool is_compressed(PixelFormat format) {
+  return format == PixelFormat::kMjpeg;
+}
+
 ImageExtent grey_extent(PixelFormat format, ImageExtent device) {
   if (format != PixelFormat::kBayer) return device;
   return {.width = device.width / 2, .height = device.height / 2};
@@ -180,6 +188,7 @@ std::ptrdiff_t row_bytes(PixelFormat format, int width_px) {
 
 std::size_t image_bytes(PixelFormat format, ImageExtent device, std::ptrdiff_t stride_bytes) {
   if (device.width <= 0 || device.height <= 0) return 0;
+  if (is_compressed(format)) return kLeastJpeg_bytes;
   return static_cast<std::size_t>((device.height - 1) * stride_bytes +
                                   row_bytes(format, device.width));
 }

@@ -31,15 +31,15 @@ struct ImageFormat {
 };
 
 // Every format but kAny, in the order in which they are tried.
-inline constexpr std::array<PixelFormat, 11> kPixelFormats = {
+inline constexpr std::array<PixelFormat, 12> kPixelFormats = {
     PixelFormat::kGrey,  PixelFormat::kY10,  PixelFormat::kY10P, PixelFormat::kY12,
     PixelFormat::kY16,   PixelFormat::kYuyv, PixelFormat::kUyvy, PixelFormat::kNv12,
-    PixelFormat::kBayer, PixelFormat::kRgb,  PixelFormat::kBgr};
+    PixelFormat::kBayer, PixelFormat::kRgb,  PixelFormat::kBgr,  PixelFormat::kMjpeg};
 
 // As configuration and messages call it: "grey", "y10p", "bayer".
 [[nodiscard]] const char* pixel_format_name(PixelFormat format);
 
-// Nothing for formats that the driver cannot read, MJPEG for one.
+// Nothing for formats that the driver cannot read.
 [[nodiscard]] std::optional<PixelFormat> pixel_format_of(std::uint32_t fourcc);
 
 // V4L2's codes of one format: one, or four for the Bayer orders.
@@ -51,19 +51,25 @@ inline constexpr std::array<PixelFormat, 11> kPixelFormats = {
 // Whether the first plane already is 8-bit grey, so that nothing needs converting.
 [[nodiscard]] bool is_grey_in_place(PixelFormat format);
 
+// Whether images are of another length each, and to_grey() cannot read them: JpegLuma does.
+[[nodiscard]] bool is_compressed(PixelFormat format);
+
 // The size of the grey image that becomes of a device's: half of it for Bayer, else the same.
 [[nodiscard]] ImageExtent grey_extent(PixelFormat format, ImageExtent device);
 
-// The bytes of a row that hold pixels; padding may follow.
+// The bytes of a row that hold pixels; padding may follow. Of a compressed image there are no rows:
+// those of its grey image.
 [[nodiscard]] std::ptrdiff_t row_bytes(PixelFormat format, int width_px);
 
-// How far into an image to_grey() reads. @param stride_bytes  from row to row, >= row_bytes().
+// How far into an image to_grey() reads; of a compressed one, the least it can have. @param
+// stride_bytes  from row to row, >= row_bytes().
 [[nodiscard]] std::size_t image_bytes(PixelFormat format, ImageExtent device,
                                       std::ptrdiff_t stride_bytes);
 
 // Writes the image as 8-bit grey: the upper 8 bits of deeper pixels, those above their depth's
 // range being white; luma, for RGB by the weights of ITU-R BT.601 in 256ths; the rounded mean of
 // each 2x2 Bayer cell.
+// @pre the format is not compressed.
 // @param source  image_bytes() of readable bytes, of any alignment.
 // @param grey    of grey_extent().
 // Exactness: integers only, the same on every machine.

@@ -66,6 +66,7 @@ void StreamSource::claim_slots() {
     const ImageFormat& format = streams_[i]->format();
     if (is_grey_in_place(format.format)) continue;
     const ImageExtent grey = grey_extent(format.format, format.extent);
+    if (is_compressed(format.format)) decoders_[i].emplace(grey.width);
     for (Slot& slot : slots_) {
       slot.copies[i].resize(static_cast<std::size_t>(grey.width) * grey.height);
     }
@@ -90,6 +91,7 @@ void StreamSource::clear() {
     slot.buffers = {-1, -1};
     for (auto& copy : slot.copies) std::vector<std::uint8_t>().swap(copy);
   }
+  for (auto& decoder : decoders_) decoder.reset();
   indices_ = {};
   pairing_.reset();
   last_skew_ = Duration::zero();

@@ -12,6 +12,7 @@
 #include "base/camera_config.h"
 #include "base/result.h"
 #include "drivers/camera/camera_stream.h"
+#include "drivers/camera/jpeg_luma.h"
 #include "drivers/frame_source.h"
 #include "drivers/pairing/number_pairs.h"
 #include "drivers/pairing/pair_frames.h"
@@ -67,8 +68,11 @@ class StreamSource : public FrameSource {
   WaitResult next_pair(Slot& slot);
   void take_eyes();
   TakenFrame take_from(std::size_t camera, std::int64_t& index);
-  // The grey image of a buffer, in place or as a copy in the slot.
+  // The grey image of a buffer, in place or as a copy in the slot; empty when it cannot be decoded.
   ImageView<const std::uint8_t> bring(std::size_t camera, int buffer, Slot& slot);
+  // Gives the cameras the buffers of a slot.
+  void give_buffers_back(Slot& slot);
+  WaitResult report_unreadable(std::int64_t number, FrameTime stamp);
   WaitResult deliver_pair(const PairResult& pair, Slot& slot);
   WaitResult report_unpaired(Eye eye, const StampedFrame& frame);
   WaitResult lend(const StereoFrame& frame, Slot& slot);
@@ -81,6 +85,7 @@ class StreamSource : public FrameSource {
 
   std::array<Slot, kSlotCount> slots_;
   std::array<std::unique_ptr<CameraStream>, 2> streams_;  // those not open are null
+  std::array<std::optional<JpegLuma>, 2> decoders_;       // of cameras that need one
   std::array<FrameIndex, 2> indices_;
   std::optional<PairFrames> pairing_;
   NumberPairs numbers_;

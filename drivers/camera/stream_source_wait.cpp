@@ -39,11 +39,15 @@ bool StreamSource::is_lost() const {
 void StreamSource::reclaim_slots() {
   for (Slot& slot : slots_) {
     if (slot.state.load(std::memory_order_acquire) != SlotState::kReturned) continue;
-    for (std::size_t i = 0; i < slot.buffers.size(); ++i) {
-      if (slot.buffers[i] >= 0) streams_[i]->give_back(slot.buffers[i]);
-      slot.buffers[i] = -1;
-    }
+    give_buffers_back(slot);
     slot.state.store(SlotState::kFree, std::memory_order_relaxed);
+  }
+}
+
+void StreamSource::give_buffers_back(Slot& slot) {
+  for (std::size_t i = 0; i < slot.buffers.size(); ++i) {
+    if (slot.buffers[i] >= 0) streams_[i]->give_back(slot.buffers[i]);
+    slot.buffers[i] = -1;
   }
 }
 
@@ -73,6 +77,7 @@ TakenFrame StreamSource::take_from(std::size_t camera, std::int64_t& index) {
   index = indices_[camera].advance(frame.sequence);
   stats_.dropped_by_device += indices_[camera].lost();
   stats_.device_errors += frame.taken == Taken::kBadBuffer ? 1 : 0;
+  stats_.stamps_of_future += frame.is_of_future ? 1 : 0;
   published_stats_.store(stats_);
   return frame;
 }
@@ -87,8 +92,14 @@ ImageView<const std::uint8_t> StreamSource::bring(std::size_t camera, int buffer
   }
   const ImageView<std::uint8_t> copy(slot.copies[camera].data(), grey.width, grey.height,
                                      grey.width);
-  to_grey(format.format, from.pixels(buffer), format.stride_bytes, copy);
+  bool is_whole = true;
+  if (decoders_[camera]) {
+    is_whole = decoders_[camera]->decode({from.pixels(buffer), from.filled_bytes(buffer)}, copy);
+  } else {
+    to_grey(format.format, from.pixels(buffer), format.stride_bytes, copy);
+  }
   from.give_back(buffer);
+  if (!is_whole) return {};
   return copy;
 }
 
@@ -97,15 +108,10 @@ WaitResult StreamSource::next_shared(Slot& slot) {
   const TakenFrame taken = take_from(0, index);
   if (taken.taken != Taken::kFrame && taken.taken != Taken::kBadBuffer) return {};
   const std::int64_t number = numbers_.number_pair(index, index);
-  if (taken.taken == Taken::kBadBuffer) {
-    ++stats_.unreadable;
-    published_stats_.store(stats_);
-    return {.status = WaitStatus::kBadFrame,
-            .fault = FrameFault::kUnreadable,
-            .sequence = number,
-            .stamp = taken.stamp};
-  }
-  auto eyes = split_eyes(config_.layout, bring(0, taken.buffer, slot));
+  if (taken.taken == Taken::kBadBuffer) return report_unreadable(number, taken.stamp);
+  const ImageView<const std::uint8_t> image = bring(0, taken.buffer, slot);
+  if (image.is_empty()) return report_unreadable(number, taken.stamp);
+  auto eyes = split_eyes(config_.layout, image);
   if (config_.swap_eyes) std::swap(eyes[0], eyes[1]);
   return lend({.sequence = number, .stamp = taken.stamp, .left = eyes[0], .right = eyes[1]}, slot);
 }
@@ -144,7 +150,18 @@ WaitResult StreamSource::deliver_pair(const PairResult& pair, Slot& slot) {
                           .stamp = pair.left.stamp,
                           .left = bring(0, pair.left.buffer, slot),
                           .right = bring(1, pair.right.buffer, slot)};
-  return lend(frame, slot);
+  if (!frame.left.is_empty() && !frame.right.is_empty()) return lend(frame, slot);
+  give_buffers_back(slot);
+  return report_unreadable(frame.sequence, frame.stamp);
+}
+
+WaitResult StreamSource::report_unreadable(std::int64_t number, FrameTime stamp) {
+  ++stats_.unreadable;
+  published_stats_.store(stats_);
+  return {.status = WaitStatus::kBadFrame,
+          .fault = FrameFault::kUnreadable,
+          .sequence = number,
+          .stamp = stamp};
 }
 
 WaitResult StreamSource::report_unpaired(Eye eye, const StampedFrame& frame) {

@@ -66,10 +66,8 @@ TakenFrame LibcameraStream::take() {
     return {.taken = Taken::kLost};
   }
   is_queued_[buffer] = false;
-  TakenFrame frame = {.taken = Taken::kFrame,
-                      .buffer = buffer,
-                      .sequence = completed->sequence,
-                      .stamp = note(*completed)};
+  TakenFrame frame = {.taken = Taken::kFrame, .buffer = buffer, .sequence = completed->sequence};
+  note(*completed, frame);
   if (completed->is_whole) {
     camera_->begin_reading(buffer);
   } else {
@@ -85,13 +83,16 @@ bool LibcameraStream::is_silent() const {
   return queued_count() > 0 && calls_.now() > waiting_since_ + silence;
 }
 
-FrameTime LibcameraStream::note(const CompletedFrame& frame) {
+void LibcameraStream::note(const CompletedFrame& frame, TakenFrame& taken) {
   if (frame.exposure_ms >= 0.0) exposure_ms_ = frame.exposure_ms;
   if (frame.gain >= 0.0) gain_ = frame.gain;
   if (frame.period > Duration::zero()) period_ = frame.period;
-  const SensorStamp stamp = stamp_frame(frame, read_suspended_time(), exposure_ms_);
-  stamp_source_ = stamp.source;
-  return stamp.middle;
+  const FrameTime arrival = frame_time_from_ns(to_ns(frame.arrival));
+  const SensorStamp said = stamp_frame(frame, read_suspended_time(), exposure_ms_);
+  stamp_source_ = said.source;
+  taken.is_of_future = said.is_of_future;
+  taken.stamp = said.is_of_future ? arrivals_.estimate(arrival, said.middle)
+                                  : arrivals_.note(said.middle, arrival);
 }
 
 void LibcameraStream::give_back(int buffer) {

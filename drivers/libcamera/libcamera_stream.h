@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/camera/arrival_stamps.h"
 #include "drivers/camera/camera_stream.h"
 #include "drivers/libcamera/request_camera.h"
 
@@ -47,8 +48,8 @@ class LibcameraStream final : public CameraStream {
   // @return a negative error number, or 0.
   int queue(int buffer);
   [[nodiscard]] bool is_silent() const;
-  // @return the stamp of the middle; keeps what the frame says of the camera.
-  FrameTime note(const CompletedFrame& frame);
+  // Says in `taken` when the frame was exposed; keeps what it says of the camera.
+  void note(const CompletedFrame& frame, TakenFrame& taken);
   void lose(const char* call, int error);
 
   const std::string id_;
@@ -61,6 +62,7 @@ class LibcameraStream final : public CameraStream {
   double gain_ = -1.0;
   Duration period_ = Duration::zero();  // 0: not known
   StampSource stamp_source_ = StampSource::kUnknown;
+  ArrivalStamps arrivals_;
   const char* lost_call_ = nullptr;
   int lost_error_ = 0;
 };

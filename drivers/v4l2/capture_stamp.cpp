@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "drivers/camera/arrival_stamps.h"
 #include "drivers/camera/half_exposure.h"
 
 namespace darkling {
@@ -11,20 +12,19 @@ namespace darkling {
 namespace {
 
 constexpr std::int64_t kLastSecond = 1LL << 33;  // 272 years; nanoseconds still fit 64 bits
-constexpr Duration kFuture = std::chrono::seconds(1);
 constexpr Duration kExposureStep = std::chrono::microseconds(100);  // V4L2's unit
 
-std::optional<FrameTime> monotonic_stamp(const v4l2_buffer& buffer, FrameTime arrival) {
+std::optional<FrameTime> monotonic_stamp(const v4l2_buffer& buffer) {
   if ((buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
     return std::nullopt;
   }
-  const std::int64_t seconds = buffer.timestamp.tv_sec;
+  const std::int64_t seconds = std::min<std::int64_t>(buffer.timestamp.tv_sec, kLastSecond);
   const std::int64_t microseconds = buffer.timestamp.tv_usec;
-  if (seconds < 0 || seconds > kLastSecond || microseconds < 0 || microseconds >= 1'000'000) {
+  if (seconds < 0 || microseconds < 0 || microseconds >= 1'000'000) {
     return std::nullopt;
   }
   const FrameTime stamp = frame_time_from_ns(seconds * 1'000'000'000 + microseconds * 1000);
-  if (stamp == FrameTime{} || stamp > arrival + kFuture) return std::nullopt;
+  if (stamp == FrameTime{}) return std::nullopt;
   return stamp;
 }
 
@@ -33,8 +33,12 @@ std::optional<FrameTime> monotonic_stamp(const v4l2_buffer& buffer, FrameTime ar
 CaptureStamp stamp_capture(const v4l2_buffer& buffer, MonotonicTime arrival, double exposure_ms) {
   const FrameTime arrived = frame_time_from_ns(to_ns(arrival));
   const Duration half = half_exposure(exposure_ms);
-  const auto stamp = monotonic_stamp(buffer, arrived);
-  if (!stamp) return {.middle = arrived - half, .source = StampSource::kArrival};
+  const auto stamp = monotonic_stamp(buffer);
+  const bool is_of_future = stamp && *stamp > arrived + kMostStampAhead;
+  if (!stamp || is_of_future) {
+    return {
+        .middle = arrived - half, .source = StampSource::kArrival, .is_of_future = is_of_future};
+  }
   const bool is_start =
       (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   if (is_start) return {.middle = *stamp + half, .source = StampSource::kStartOfExposure};

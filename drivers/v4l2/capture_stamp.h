@@ -12,11 +12,13 @@ namespace darkling {
 struct CaptureStamp {
   FrameTime middle;  // of the exposure, CLOCK_MONOTONIC
   StampSource source = StampSource::kUnknown;
+  bool is_of_future = false;  // the buffer's own stamp, which the arrival stands in for
 };
 
 // V4L2 stamps the start of the exposure, or the moment when the last pixel has arrived: then the
 // readout, which nobody tells, stays in the stamp. Without a monotonic stamp, or with one of zero
-// or from the future, the time at which the buffer was taken stands in for the end of the frame.
+// or more than kMostStampAhead from the future, the time at which the buffer was taken stands in
+// for the end of the frame.
 // @param arrival      when the buffer was taken from the device.
 // @param exposure_ms  below 0: not known, taken for 0.
 [[nodiscard]] CaptureStamp stamp_capture(const v4l2_buffer& buffer, MonotonicTime arrival,

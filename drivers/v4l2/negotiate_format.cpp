@@ -10,6 +10,7 @@
 #include <linux/videodev2.h>
 
 #include "drivers/camera/eye_layout.h"
+#include "drivers/camera/jpeg_luma.h"
 
 namespace darkling {
 
@@ -68,8 +69,9 @@ std::optional<ImageFormat> accept(const v4l2_format& answer, PixelFormat format,
   const v4l2_pix_format& pixels = answer.fmt.pix;
   const bool is_whole_frame = pixels.field == V4L2_FIELD_NONE || pixels.field == V4L2_FIELD_ANY;
   const std::ptrdiff_t least_bytes = row_bytes(format, wanted.width);
-  const std::ptrdiff_t stride_bytes =
-      pixels.bytesperline == 0 ? least_bytes : static_cast<std::ptrdiff_t>(pixels.bytesperline);
+  const std::ptrdiff_t stride_bytes = pixels.bytesperline == 0 || is_compressed(format)
+                                          ? least_bytes
+                                          : static_cast<std::ptrdiff_t>(pixels.bytesperline);
   if (pixels.pixelformat != fourcc || pixels.width != static_cast<std::uint32_t>(wanted.width) ||
       pixels.height != static_cast<std::uint32_t>(wanted.height) || !is_whole_frame ||
       pixels.bytesperline > kMaxStride_bytes || stride_bytes < least_bytes) {
@@ -111,6 +113,7 @@ Error nothing_fits(const DeviceDescriptor& device, const CameraConfig& config, I
                      ": no format fits; wanted: " + pixel_format_name(config.format) + " at " +
                      extent_text(wanted_extent(config, config.format, eye)) +
                      " for eyes of the calibration's " + extent_text(eye) +
+                     (can_decode_jpeg() ? "" : " (but for mjpeg: built without libjpeg)") +
                      "; the device offers: " + offers_text(device, offered)};
 }
 
@@ -148,6 +151,7 @@ Result<ImageFormat> negotiate_format(const DeviceDescriptor& device, const Camer
   int error = 0;
   for (const PixelFormat format : kPixelFormats) {
     if (config.format != PixelFormat::kAny && config.format != format) continue;
+    if (is_compressed(format) && !can_decode_jpeg()) continue;
     const ImageExtent wanted = wanted_extent(config, format, eye);
     if (!gives_eyes_of(config, format, wanted, eye)) continue;
     for (const std::uint32_t fourcc : fourccs_of(format)) {

@@ -135,17 +135,25 @@ TakenFrame V4l2Device::take() {
   }
   const int index = static_cast<int>(buffer.index);
   is_queued_[index] = false;
-  const CaptureStamp stamp =
-      stamp_capture(buffer, descriptor_.calls().now(), exposure_.exposure_ms);
-  stamp_source_ = stamp.source;
-  TakenFrame frame = {
-      .taken = Taken::kFrame, .buffer = index, .sequence = buffer.sequence, .stamp = stamp.middle};
+  filled_bytes_[index] = std::min<std::size_t>(buffer.bytesused, buffers_[index].size());
+  TakenFrame frame = {.taken = Taken::kFrame, .buffer = index, .sequence = buffer.sequence};
+  stamp(buffer, frame);
   if (!is_whole(buffer.flags, buffer.bytesused)) {
     give_back(index);
     frame.taken = is_lost() ? Taken::kLost : Taken::kBadBuffer;
     frame.buffer = -1;
   }
   return frame;
+}
+
+void V4l2Device::stamp(const v4l2_buffer& buffer, TakenFrame& frame) {
+  const MonotonicTime now = descriptor_.calls().now();
+  const FrameTime arrival = frame_time_from_ns(to_ns(now));
+  const CaptureStamp said = stamp_capture(buffer, now, exposure_.exposure_ms);
+  stamp_source_ = said.source;
+  frame.is_of_future = said.is_of_future;
+  frame.stamp = said.is_of_future ? arrivals_.estimate(arrival, said.middle)
+                                  : arrivals_.note(said.middle, arrival);
 }
 
 bool V4l2Device::is_whole(std::uint32_t flags, std::uint32_t bytes_used) {

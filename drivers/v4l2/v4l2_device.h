@@ -9,6 +9,7 @@
 
 #include "base/camera_config.h"
 #include "base/result.h"
+#include "drivers/camera/arrival_stamps.h"
 #include "drivers/camera/camera_stream.h"
 #include "drivers/v4l2/camera_controls.h"
 #include "drivers/v4l2/capture_stamp.h"
@@ -53,6 +54,8 @@ class V4l2Device {
   // How many buffers the device has. With none, poll() has nothing to wait for.
   [[nodiscard]] int queued_count() const;
   [[nodiscard]] const std::uint8_t* pixels(int buffer) const { return buffers_[buffer].bytes(); }
+  // How many bytes of a buffer that was taken the device says it has filled, and are there.
+  [[nodiscard]] std::size_t filled_bytes(int buffer) const { return filled_bytes_.at(buffer); }
   [[nodiscard]] const ImageFormat& format() const { return format_; }
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   // All but the skew.
@@ -64,6 +67,8 @@ class V4l2Device {
   Result<void> claim_buffers();
   Result<void> map_buffer(std::uint32_t index);
   int queue(int buffer);
+  // Says in `frame` when the buffer was exposed.
+  void stamp(const v4l2_buffer& buffer, TakenFrame& frame);
   // @return whether the buffer holds a whole image; may lose the device.
   bool is_whole(std::uint32_t flags, std::uint32_t bytes_used);
   void lose(const char* call, int error);
@@ -71,12 +76,14 @@ class V4l2Device {
   DeviceDescriptor descriptor_;        // closed last:
   std::vector<MappedBuffer> buffers_;  // members go in reverse order
   std::array<bool, kMaxBufferCount> is_queued_ = {};
+  std::array<std::size_t, kMaxBufferCount> filled_bytes_ = {};
   ImageFormat format_;
   Duration period_ = Duration::zero();  // 0: not known
   ExposureReading exposure_;
   bool is_automatic_ = false;
   MonotonicTime exposure_read_at_ = {};
   StampSource stamp_source_ = StampSource::kUnknown;
+  ArrivalStamps arrivals_;
   bool is_streaming_ = false;
   const char* lost_call_ = nullptr;
   int lost_error_ = 0;

@@ -24,6 +24,9 @@ class V4l2Stream final : public CameraStream {
   [[nodiscard]] const std::uint8_t* pixels(int buffer) const override {
     return device_->pixels(buffer);
   }
+  [[nodiscard]] std::size_t filled_bytes(int buffer) const override {
+    return device_->filled_bytes(buffer);
+  }
   void refresh_exposure() override { device_->refresh_exposure(); }
   [[nodiscard]] bool is_lost() const override { return device_->is_lost(); }
   [[nodiscard]] std::string loss() const override { return device_->loss(); }

@@ -66,8 +66,8 @@ Result<int> run(const ConvertWords& words) {
 
 constexpr const char* kMore =
     "SOURCE is anything that `darkling replay` plays. A frame log keeps all that matters to the\n"
-    "odometry, to the bit: replaying it gives the same trajectory. Bad pairs stay gaps. Truth "
-    "goes\n"
+    "odometry, to the bit: replaying it gives the same trajectory. Bad pairs stay gaps; from a\n"
+    "log, commands and hints that the service obeyed go along into another log. Truth goes\n"
     "along; into a folder only where a pose is known for the very frame, and into a KITTI folder,\n"
     "which holds rectified images only, where one is known for every frame.\n"
     "The same source gives the same bytes. An interrupted run leaves a shorter recording.\n"

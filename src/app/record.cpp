@@ -157,6 +157,10 @@ void print_summary(const RecordOptions& options, const LiveCamera& camera, const
                 static_cast<long long>(stats.dropped_by_device),
                 static_cast<long long>(stats.device_errors));
   }
+  if (stats.stamps_of_future > 0) {
+    std::printf("  the device stamped %lld images with a time still to come\n",
+                static_cast<long long>(stats.stamps_of_future));
+  }
 }
 
 }  // namespace

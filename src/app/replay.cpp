@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/replay.h"
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <span>
 
+#include "app/due_wishes.h"
 #include "app/injected_recording.h"
 #include "app/progress_line.h"
+#include "app/replay_log.h"
 #include "app/service/obey_wish.h"
 #include "app/verb.h"
 #include "io/run_report.h"
@@ -30,8 +34,9 @@ struct Run {
   std::optional<Trajectory> truth;
   std::string truth_name;
   RunOutputs outputs;
+  std::optional<ReplayLog> log;
   StatisticsRecorder statistics;
-  std::size_t wishes_obeyed = 0;           // of the recording's
+  DueWishes wishes;                        // of the recording
   std::optional<std::int64_t> heap_calls;  // of the odometry since it was created
 };
 
@@ -50,6 +55,23 @@ Result<Truth> find_truth(const ReplayOptions& options, const Recording& recordin
   const auto trajectory = read_trajectory(path);
   if (!trajectory) return tl::unexpected(trajectory.error());
   return Truth{*trajectory, path};
+}
+
+// The log that is asked for, if one is: the last of all preparations, so that no empty one is left
+// behind.
+Result<std::optional<ReplayLog>> open_log(const ReplayOptions& options, const Config& config,
+                                          const Recording& recording, const Odometry& odometry,
+                                          const Truth& truth, const KernelTable& kernels) {
+  if (options.log_path.empty()) return std::optional<ReplayLog>();
+  const ReplayFacts facts{.source = name_injected(options.source, options.injections),
+                          .kernels = kernels.name,
+                          .arena_bytes = static_cast<std::int64_t>(odometry.arena_bytes()),
+                          .width_px = odometry.rig().width,
+                          .height_px = odometry.rig().height,
+                          .period = Duration(std::llround(1e9 / config.camera.rate_hz))};
+  auto log = ReplayLog::create(options.log_path, config, recording.rig, truth.trajectory, facts);
+  if (!log) return tl::unexpected(log.error());
+  return std::optional(std::move(*log));
 }
 
 Result<Run> prepare(const ReplayOptions& options) {
@@ -73,33 +95,29 @@ Result<Run> prepare(const ReplayOptions& options) {
   if (auto started = recording->source->start(); !started) {
     return tl::unexpected(started.error());
   }
+  auto log = open_log(options, *config, *recording, **odometry, *truth, *kernels);
+  if (!log) return tl::unexpected(log.error());
+  DueWishes wishes(std::move(recording->wishes));
   return Run{.kernels = *kernels,
              .recording = std::move(*recording),
              .odometry = std::move(*odometry),
              .truth = std::move(truth->trajectory),
              .truth_name = std::move(truth->name),
              .outputs = std::move(*outputs),
+             .log = std::move(*log),
              .statistics = {},
-             .wishes_obeyed = 0,
+             .wishes = std::move(wishes),
              .heap_calls = count_heap_calls() ? std::optional<std::int64_t>(0) : std::nullopt};
-}
-
-// What the odometry was asked for before this frame when it was recorded.
-void obey_wishes(Run& run, std::int64_t sequence) {
-  const std::vector<RecordedWish>& wishes = run.recording.wishes;
-  for (std::size_t& i = run.wishes_obeyed; i < wishes.size() && wishes[i].sequence <= sequence;
-       ++i) {
-    obey_wish(*run.odometry, wishes[i].wish);
-  }
 }
 
 // One input frame: tracked and timed when there is a pair, else skipped; heap calls are counted.
 // The last keyframe is refined before the time of the frame begins, as between frames of a camera.
-Estimate follow(Run& run, const WaitResult& next) {
+// @param wishes  what the odometry was asked for before this frame when it was recorded.
+Estimate follow(Run& run, const WaitResult& next, std::span<const RecordedWish> wishes) {
   const bool is_bad = next.status == WaitStatus::kBadFrame;
   const auto heap_calls_before = count_heap_calls();
   run.odometry->finish_refinement();
-  obey_wishes(run, is_bad ? next.sequence : next.lease.frame().sequence);
+  for (const RecordedWish& recorded : wishes) obey_wish(*run.odometry, recorded.wish);
   const MonotonicTime started_at = read_monotonic_clock();
   const Estimate estimate = is_bad ? run.odometry->skip(next.sequence, next.stamp)
                                    : run.odometry->track(next.lease.frame());
@@ -132,8 +150,12 @@ Result<void> play(Run& run, Pace pace) {
     }
     const bool is_bad = next.status == WaitStatus::kBadFrame;
     pacer.wait_for(is_bad ? next.stamp : next.lease.frame().stamp);
-    const Estimate estimate = follow(run, next);
+    const auto wishes = run.wishes.take(is_bad ? next.sequence : next.lease.frame().sequence);
+    const Estimate estimate = follow(run, next, wishes);
     run.outputs.append(estimate);
+    if (run.log) {
+      if (auto logged = run.log->add(next, wishes, estimate); !logged) return logged;
+    }
     progress.show(run.statistics.counts().frames, estimate.status);
     if ((estimate.reasons & kReasonEyesSwapped) != 0) return swapped_eyes(run.recording);
   }
@@ -148,6 +170,12 @@ Result<std::optional<Evaluation>> evaluate_run(const Run& run, const TruthNoise&
       evaluate(*run.truth, run.outputs.trajectory(), run.outputs.uncertainties(), truth_noise);
   if (evaluation) return *evaluation;
   return failure(evaluation.error().code, run.truth_name + ": " + evaluation.error().message);
+}
+
+std::vector<std::string> describe_outputs(const Run& run) {
+  std::vector<std::string> rows = run.outputs.describe();
+  if (run.log) rows.push_back("frame log   " + run.log->path() + " (with what is published)");
+  return rows;
 }
 
 RunReport report_run(Run& run, const ReplayOptions& options) {
@@ -169,7 +197,7 @@ RunReport report_run(Run& run, const ReplayOptions& options) {
           .heap_calls_after_start = run.heap_calls,
           .peak_rss_bytes = read_peak_rss_bytes(),
           .trajectory_sha256 = run.outputs.finish_sha256(),
-          .outputs = run.outputs.describe()};
+          .outputs = describe_outputs(run)};
 }
 
 }  // namespace
@@ -188,11 +216,13 @@ Result<int> replay(const ReplayOptions& options) {
   const auto evaluation = evaluate_run(*run, options.truth_noise);
   if (evaluation) report.evaluation = *evaluation;
   const auto closed = run->outputs.close();
+  const auto log_closed = run->log ? run->log->close() : Result<void>();
   const auto stats_written = run->outputs.write_stats(format_statistics_json(report));
   std::fputs(format_summary(report).c_str(), stdout);
 
   if (!played) return tl::unexpected(played.error());
   if (!closed) return tl::unexpected(closed.error());
+  if (!log_closed) return tl::unexpected(log_closed.error());
   if (!stats_written) return tl::unexpected(stats_written.error());
   if (report.was_interrupted) return kInterruptedStatus;
   if (!evaluation) return tl::unexpected(evaluation.error());

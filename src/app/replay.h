@@ -25,6 +25,7 @@ struct ReplayOptions {
   TruthNoise truth_noise;
   Pace pace = Pace::kFast;
   OutputOptions outputs;
+  std::string log_path;  // empty: none
 };
 
 // Plays a recording through the odometry and prints a summary.

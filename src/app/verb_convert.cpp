@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/dataset_writer.h"
+#include "app/due_wishes.h"
 #include "app/injected_recording.h"
 #include "app/known_poses.h"
 #include "app/progress_line.h"
@@ -24,6 +25,8 @@ namespace fs = std::filesystem;
 class Output {
  public:
   virtual ~Output() = default;
+  // What the odometry obeyed before the next pair, which is of `stamp`.
+  virtual Result<void> obey(std::span<const RecordedWish> wishes, FrameTime stamp) = 0;
   virtual Result<void> add(const StereoFrame& frame) = 0;
   virtual Result<void> skip(const WaitResult& bad) = 0;
   virtual Result<void> close() = 0;
@@ -32,6 +35,9 @@ class Output {
 class LogOutput final : public Output {
  public:
   explicit LogOutput(FrameLogWriter writer) : writer_(std::move(writer)) {}
+  Result<void> obey(std::span<const RecordedWish> wishes, FrameTime stamp) override {
+    return add_wishes(writer_, wishes, stamp);
+  }
   Result<void> add(const StereoFrame& frame) override { return writer_.add_frame(frame); }
   Result<void> skip(const WaitResult& bad) override {
     return writer_.add_gap(bad.sequence, bad.stamp, bad.fault);
@@ -46,6 +52,9 @@ class DatasetOutput final : public Output {
  public:
   DatasetOutput(std::unique_ptr<DatasetWriter> writer, KnownPoses poses)
       : writer_(std::move(writer)), poses_(std::move(poses)) {}
+  Result<void> obey(std::span<const RecordedWish> /*wishes*/, FrameTime) override {
+    return {};  // a folder has no place for them
+  }
   Result<void> add(const StereoFrame& frame) override {
     return writer_->add(frame, poses_.find(frame.sequence, frame.stamp));
   }
@@ -118,11 +127,27 @@ Result<std::optional<Trajectory>> read_truth(const Recording& recording) {
 struct Converted {
   std::int64_t frames = 0;
   std::int64_t gaps = 0;
+  std::int64_t wishes = 0;
 };
+
+// One pair, or what is known of a missing one.
+Result<void> write_pair(const WaitResult& pair, DueWishes& wishes, Output& output,
+                        Converted& done) {
+  const bool is_frame = pair.status == WaitStatus::kFrame;
+  const FrameTime stamp = is_frame ? pair.lease.frame().stamp : pair.stamp;
+  const auto due = wishes.take(is_frame ? pair.lease.frame().sequence : pair.sequence);
+  if (auto obeyed = output.obey(due, stamp); !obeyed) return obeyed;
+  auto written = is_frame ? output.add(pair.lease.frame()) : output.skip(pair);
+  if (!written) return written;
+  ++(is_frame ? done.frames : done.gaps);
+  done.wishes += std::ssize(due);
+  return {};
+}
 
 Result<Converted> write_frames(Recording& recording, Output& output) {
   constexpr Duration kTimeout = std::chrono::milliseconds(200);  // how late a stop may be seen
   ProgressLine progress(recording.frame_count);
+  DueWishes wishes(std::move(recording.wishes));
   Converted done;
   while (!is_stop_requested()) {
     const WaitResult next = recording.source->wait_next(kTimeout);
@@ -130,14 +155,25 @@ Result<Converted> write_frames(Recording& recording, Output& output) {
     if (next.status == WaitStatus::kDeviceLost) {
       return failure(ExitCode::kNoInput, recording.name + ": cannot be read any further");
     }
-    const bool is_frame = next.status == WaitStatus::kFrame;
-    if (!is_frame && next.status != WaitStatus::kBadFrame) continue;
-    const auto written = is_frame ? output.add(next.lease.frame()) : output.skip(next);
-    if (!written) return tl::unexpected(written.error());
-    ++(is_frame ? done.frames : done.gaps);
+    if (next.status != WaitStatus::kFrame && next.status != WaitStatus::kBadFrame) continue;
+    if (auto written = write_pair(next, wishes, output, done); !written) {
+      return tl::unexpected(written.error());
+    }
     progress.show(done.frames + done.gaps);
   }
   return done;
+}
+
+void print_summary(const ConvertOptions& options, const Recording& recording,
+                   const Converted& done) {
+  std::printf("%lld frames of %s (%s)", static_cast<long long>(done.frames), recording.name.c_str(),
+              recording.kind.c_str());
+  if (done.gaps > 0) std::printf(", %lld bad ones left out", static_cast<long long>(done.gaps));
+  if (done.wishes > 0) {
+    std::printf(", %lld commands and hints%s", static_cast<long long>(done.wishes),
+                options.layout ? " left out, which a folder cannot hold" : "");
+  }
+  std::printf(": %s\nTry: darkling replay %s\n", options.output.c_str(), options.output.c_str());
 }
 
 }  // namespace
@@ -163,10 +199,7 @@ Result<int> run_convert(const ConvertOptions& options) {
   const auto closed = (*output)->close();
   if (!done) return tl::unexpected(done.error());
   if (!closed) return tl::unexpected(closed.error());
-  std::printf("%lld frames of %s (%s)", static_cast<long long>(done->frames),
-              recording->name.c_str(), recording->kind.c_str());
-  if (done->gaps > 0) std::printf(", %lld bad ones left out", static_cast<long long>(done->gaps));
-  std::printf(": %s\nTry: darkling replay %s\n", options.output.c_str(), options.output.c_str());
+  print_summary(options, *recording, *done);
   return is_stop_requested() ? kInterruptedStatus : 0;
 }
 

@@ -21,8 +21,9 @@ struct ConvertOptions {
   bool is_forced = false;               // write over what is there
 };
 
-// Writes the frames of a recording, its rig, its truth and its gaps into another one that `replay`
-// plays. An interrupted run leaves a shorter recording.
+// Writes the frames of a recording, its rig, its truth, its gaps and, into a log, what was asked of
+// the odometry on the way into another one that `replay` plays. An interrupted run leaves a shorter
+// recording.
 // @return the exit status, kInterruptedStatus when a signal cut it short; kUsage when the output is
 //         not to be written to, cannot be, or cannot hold this recording; or what open_source()
 //         says.

@@ -28,6 +28,7 @@ struct ReplayWords {
   std::string truth_path;
   std::vector<double> truth_noise = {0.0, 0.0};  // as TruthNoise
   std::string stats_path;
+  std::string log_path;
   std::string pace = "fast";
   std::string kernels = "auto";
   std::string frames;
@@ -76,7 +77,8 @@ Result<ReplayOptions> understand(const ReplayWords& words) {
       .pace = *is_fast ? Pace::kFast : Pace::kRecorded,
       .outputs = {.trajectory_path = words.trajectory_path,
                   .trajectory_format = *is_tum ? TrajectoryFormat::kTum : TrajectoryFormat::kKitti,
-                  .stats_path = words.stats_path}};
+                  .stats_path = words.stats_path},
+      .log_path = words.log_path};
 }
 
 Result<int> run(const ReplayWords& words) {
@@ -108,6 +110,10 @@ constexpr const char* kMore =
     "NEES tells whether covariances keep what they promise: the mean of e' inverse(C) e / 6 of\n"
     "errors e with covariance C, 1 where they are right, above where they promise too much. The\n"
     "truth counts as exact unless --truth-noise says otherwise.\n\n"
+    "--log writes a frame log of what the run saw, injected faults included, with VO_UPDATE and\n"
+    "VO_POSE behind every frame and VO_STATUS twice a second, as darklingd would publish them. It\n"
+    "replays to the same poses. Nothing is written over: FILE-2.lcmlog is next where FILE is "
+    "taken.\n\n"
     "A run that lost track on the way is done all the same and exits 0: the table says so.\n\n";
 
 constexpr const char* kExamples =
@@ -116,6 +122,7 @@ constexpr const char* kExamples =
     "  darkling replay ~/euroc/MH_01_easy --trajectory mh01.tum --format tum\n"
     "  darkling replay synthetic:mine,frames=200,seed=1\n"
     "  darkling replay ~/kitti/06 --inject electrons=5 --inject blackout@100:105\n"
+    "  darkling replay synthetic:mine --log mine.lcmlog && darkling replay mine.lcmlog\n"
     "  darkling replay --print-config > rover.yaml\n";
 
 void declare_input(CLI::App& command, ReplayWords& words) {
@@ -151,6 +158,8 @@ void declare_output(CLI::App& command, ReplayWords& words) {
       ->check(CLI::NonNegativeNumber);
   command.add_option("--stats", words.stats_path, "Write statistics here, as JSON")
       ->type_name("FILE");
+  command.add_option("--log", words.log_path, "Write frames and what is published of them here")
+      ->type_name("FILE.lcmlog");
   command.add_flag("--print-config", words.is_config_wanted,
                    "Print the configuration that would be used, and stop");
 }

@@ -26,6 +26,7 @@ enum class PixelFormat {
   kBayer,  // any 8-bit Bayer order: each 2x2 cell becomes one grey pixel
   kRgb,    // bytes in this order
   kBgr,
+  kMjpeg,  // a JPEG image each; its luma
 };
 
 struct CameraConfig {

@@ -99,6 +99,7 @@ struct ValueSetter {
     // A line break or another control character is never meant.
     const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
     if (std::any_of(text.begin(), text.end(), is_control)) return false;
+    if (key.most > 0.0 && static_cast<double>(text.size()) > key.most) return false;
     field.edit(config) = text;
     return true;
   }

@@ -54,7 +54,7 @@ struct ConfigKey {
   std::string_view name;
   std::string_view unit;  // of a number; empty for counts. Of a text: what it is
   double least;           // of a number
-  double most;
+  double most;            // of a text: how many characters; 0: any number
   std::variant<Field<int>, Field<double>, Field<bool>, Field<std::string>, WordField> field;
   std::string_view about;        // one sentence
   bool may_be_zero = false;      // besides the range: 0 has a meaning of its own

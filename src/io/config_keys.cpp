@@ -44,8 +44,9 @@ constexpr std::array kDescriptorWords = std::to_array<std::string_view>({"bitpla
 constexpr std::array kStereoWords = std::to_array<std::string_view>({"semi_global", "block"});
 constexpr std::array kLayoutWords =
     std::to_array<std::string_view>({"two_devices", "side_by_side", "top_bottom"});
-constexpr std::array kFormatWords = std::to_array<std::string_view>(
-    {"any", "grey", "y10", "y10p", "y12", "y16", "yuyv", "uyvy", "nv12", "bayer", "rgb", "bgr"});
+constexpr std::array kFormatWords =
+    std::to_array<std::string_view>({"any", "grey", "y10", "y10p", "y12", "y16", "yuyv", "uyvy",
+                                     "nv12", "bayer", "rgb", "bgr", "mjpeg"});
 
 // name, unit, least, most, field, what it is, whether 0 is allowed besides, limits' names.
 constexpr std::array kKeys = std::to_array<ConfigKey>({
@@ -104,7 +105,7 @@ constexpr std::array kKeys = std::to_array<ConfigKey>({
 
     {"lcm_url", "udpm://GROUP:PORT?ttl=N", 0, 0, member<kService, &S::lcm_url>(),
      "Where messages are published; with ttl=0 they stay on this machine."},
-    {"channel_prefix", "text", 0, 0, member<kService, &S::channel_prefix>(),
+    {"channel_prefix", "text of up to 53 characters", 0, 53, member<kService, &S::channel_prefix>(),
      "Put before the name of every channel, published or listened to."},
     {"bot_core_pose", "", 0, 0, member<kService, &S::bot_core_pose>(),
      "Whether the pose is published as bot_core.pose_t too, on the channel POSE."},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of the channels. The service puts its configured prefix before those of VO_*.
+// The names of the channels. The service puts its configured prefix before those of VO_*; LCM takes
+// 63 characters, which leaves 53 for it.
 #pragma once
 
 namespace darkling {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the service as its receivers see it: starts it with a rendered scene at 20 Hz, listens,
 // and prints how late poses are received, what the process takes, and what was lost.
-//   measure_service [SECONDS [KEY=VALUE…]]
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/parse_command_line.h"
 #include "messages/pose_t.hpp"
 #include "messages/status_t.hpp"
 #include "platform/clocks.h"
@@ -121,12 +122,43 @@ int measure(double seconds, const std::vector<std::string>& settings) {
   return 0;
 }
 
+constexpr const char* kAbout =
+    "Starts darklingd with a rendered camera at 20 Hz, listens as a receiver would, and prints "
+    "how\n"
+    "late poses are received, what the process takes, and what was lost.";
+
+constexpr const char* kMore =
+    "Examples:\n"
+    "  measure_service --for 600\n"
+    "  measure_service --set camera=drive.lcmlog --set width_px=160\n\n"
+    "Exit codes:\n"
+    "  0 measured   64 usage   69 no route for LCM   70 the service did not get ready in 60 s\n";
+
+int run_command_line(int argc, const char* const* argv) {
+  constexpr double kMost_s = 1e6;
+  double seconds = 30.0;
+  std::vector<std::string> settings;
+  CLI::App app(kAbout, "measure_service");
+  app.footer(kMore);
+  app.add_option("--for", seconds, "How long to listen from the first pose on; default 30")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(1.0, kMost_s))
+      ->check([](const std::string& text) {  // a range holds what is no number, too
+        return std::isfinite(std::strtod(text.c_str(), nullptr)) ? "" : "is no number";
+      });
+  app.add_option("--set", settings, "A setting of darklingd; default a corridor 320 px wide")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  const std::optional<int> status = test::parse_command_line(app, argc, argv);
+  if (status) return *status;
+  if (settings.empty()) settings = {"camera=synthetic:corridor,frames=40,width=320"};
+  return measure(seconds, settings);
+}
+
 }  // namespace
 }  // namespace darkling
 
 int main(int argc, char** argv) {
-  const double seconds = argc > 1 ? std::atof(argv[1]) : 30.0;
-  std::vector<std::string> settings(argv + std::min(argc, 2), argv + argc);
-  if (settings.empty()) settings = {"camera=synthetic:corridor,frames=40,width=320"};
-  return darkling::measure(seconds, settings);
+  return darkling::run_command_line(argc, argv);
 }

@@ -43,11 +43,11 @@ class Install : public ::testing::Test {
 };
 
 TEST_F(Install, PutsEachFileWhereItIsLookedFor) {
-  for (const char* path :
-       {"/bin/darklingd", "/lib/systemd/system/darklingd.service",
-        "/lib/systemd/system/darkling-lcm-route.service", "/lib/udev/rules.d/60-darkling.rules",
-        "/lib/sysusers.d/darkling.conf", "/share/darkling/darkling.yaml.example",
-        "/share/doc/darkling/deploy.md"}) {
+  for (const char* path : {"/bin/darklingd", "/lib/systemd/system/darklingd.service",
+                           "/lib/systemd/system/darkling-lcm-route.service",
+                           "/lib/udev/rules.d/60-darkling.rules", "/lib/sysusers.d/darkling.conf",
+                           "/share/darkling/darkling.yaml.example", "/share/doc/darkling/deploy.md",
+                           "/share/man/man8/darklingd.8", "/share/man/man5/darkling.yaml.5"}) {
     EXPECT_TRUE(std::filesystem::is_regular_file(installed(path))) << path;
   }
 }

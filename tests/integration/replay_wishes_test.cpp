@@ -151,5 +151,69 @@ TEST_F(ReplayWishes, AreNotForTheOdometryWhenTheyAskForRecordings) {
   EXPECT_EQ(poses_of(log_), poses_of(plain_));
 }
 
+// What `convert` makes of the log.
+class ConvertWishes : public ReplayWishes {
+ protected:
+  [[nodiscard]] test::ProgramResult convert(const std::string& output,
+                                            const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> words = {"convert", log_, output};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_darkling(words);
+  }
+
+  std::string copy_ = folder_ / "copy.lcmlog";
+};
+
+TEST_F(ConvertWishes, CarriesThemOverSoThatTheCopyReplaysTheSame) {
+  write_log(kCommandChannel,
+            {{2, command(command_t::COMMAND_RESEED)}, {kRow, command(command_t::COMMAND_RESET)}});
+  const auto converted = convert(copy_);
+  ASSERT_EQ(converted.status, 0) << converted.err;
+  EXPECT_THAT(converted.out, HasSubstr("8 frames of run.lcmlog (frame log), 2 commands and hints"));
+  const std::vector<std::string> expected = poses_of(log_);
+  EXPECT_NE(expected, poses_of(plain_));
+  EXPECT_EQ(poses_of(copy_), expected);
+  EXPECT_EQ(resets(), 1);
+}
+
+TEST_F(ConvertWishes, TakesThoseOfTheFramesThatAreChosen) {
+  write_log(kCommandChannel,
+            {{2, command(command_t::COMMAND_RESET)}, {kRow, command(command_t::COMMAND_RESET)}});
+  for (const std::vector<std::string>& choice :
+       {std::vector<std::string>{"--frames", "3:"}, {"--frames", ":5"}, {"--stride", "2"}}) {
+    ASSERT_EQ(convert(copy_, choice).status, 0);
+    const std::vector<std::string> expected = poses_of(log_, choice);
+    EXPECT_EQ(resets(), 1) << choice[1];
+    EXPECT_EQ(poses_of(copy_), expected) << choice[1];
+    EXPECT_EQ(resets(), 1) << choice[1];
+    test::remove_path(copy_);
+  }
+}
+
+TEST_F(ConvertWishes, KeepsEveryBitOfAHint) {
+  hint_t hint = {};
+  hint.rotation[0] = 0.8;
+  hint.rotation[2] = 0.6;
+  hint.translation[1] = 0.1;
+  write_log(kHintChannel, {{3, encode(hint)}});
+  ASSERT_EQ(convert(copy_).status, 0);
+  const auto copy = open_frame_log(copy_);
+  ASSERT_TRUE(copy) << copy.error().message;
+  ASSERT_EQ(copy->messages.size(), 1u);
+  EXPECT_STREQ(copy->messages[0].channel, kHintChannel);
+  EXPECT_EQ(copy->messages[0].row, 3u);
+  Bytes bytes(static_cast<std::size_t>(copy->messages[0].data_size));
+  ASSERT_TRUE(copy->events.read_at(copy->messages[0].data_at, bytes));
+  EXPECT_EQ(bytes, encode(hint));
+  EXPECT_EQ(poses_of(copy_), poses_of(log_));
+}
+
+TEST_F(ConvertWishes, SaysThatAFolderCannotHoldThem) {
+  write_log(kCommandChannel, {{kRow, command(command_t::COMMAND_RESET)}});
+  const auto converted = convert(folder_ / "out", {"--format", "euroc"});
+  ASSERT_EQ(converted.status, 0) << converted.err;
+  EXPECT_THAT(converted.out, HasSubstr("1 commands and hints left out"));
+}
+
 }  // namespace
 }  // namespace darkling

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/camera/jpeg_luma.h"
 #include "platform/heap_probe.h"
 #include "support/fake_v4l2.h"
+#include "support/jpeg_images.h"
 #include "support/sanitized.h"
 
 namespace darkling::test {
@@ -62,6 +64,15 @@ struct Played {
   int timeouts = 0;
 };
 
+// One of each five is cut short.
+void paint_jpegs(FakeV4l2Device& camera) {
+  camera.paint = [](std::uint32_t sequence, std::uint8_t* bytes) {
+    const auto jpeg = jpeg_image(32, 16, {.is_colour = true, .seed = static_cast<int>(sequence)});
+    std::copy(jpeg.begin(), jpeg.end(), bytes);
+    return sequence % 5 == 3 ? jpeg.size() / 2 : jpeg.size();
+  };
+}
+
 // A thousand waits with every fault that a source goes on after.
 Played play(std::uint32_t fourcc, std::uint32_t stride_bytes) {
   FakeV4l2 system;
@@ -70,6 +81,7 @@ Played play(std::uint32_t fourcc, std::uint32_t stride_bytes) {
   for (FakeV4l2Device* camera : cameras) {
     camera->formats = {{fourcc, 32, 16, stride_bytes, stride_bytes * 16}};
     camera->controls[V4L2_CID_EXPOSURE_ABSOLUTE].value = 50;
+    if (fourcc == V4L2_PIX_FMT_MJPEG) paint_jpegs(*camera);
   }
   cameras[0]->alter = [](v4l2_buffer& buffer) {
     if (buffer.sequence % 50 == 7) buffer.flags |= V4L2_BUF_FLAG_ERROR;
@@ -114,6 +126,14 @@ TEST(V4l2SourceHeap, IsNotCalledForFramesShownInPlace) {
 TEST(V4l2SourceHeap, IsNotCalledForConvertedFrames) {
   if (kIsSanitized) GTEST_SKIP() << "no probe under sanitizers";
   expect_rough_but_without_heap(play(V4L2_PIX_FMT_YUYV, 64));
+}
+
+TEST(V4l2SourceHeap, IsNotCalledForJpegsWholeOrNot) {
+  if (kIsSanitized) GTEST_SKIP() << "no probe under sanitizers";
+  if (!can_decode_jpeg()) GTEST_SKIP() << "built without libjpeg";
+  const Played played = play(V4L2_PIX_FMT_MJPEG, 256);
+  expect_rough_but_without_heap(played);
+  EXPECT_GT(played.stats.unreadable, 100);
 }
 
 }  // namespace

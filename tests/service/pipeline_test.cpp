@@ -117,6 +117,15 @@ TEST_F(EachPipeline, PublishesLostForPairsThatCannotBeUsed) {
   EXPECT_TRUE(reaches(status_t::STATE_TRACKING));
 }
 
+TEST_F(EachPipeline, PublishesStampsOfTheFutureAmongTheErrorsOfTheDevice) {
+  start();
+  ASSERT_TRUE(reaches(status_t::STATE_TRACKING));
+  EXPECT_EQ(listener_.heard().statuses.back().device_errors, 0);
+  source_->stamps_of_future = 7;
+  EXPECT_TRUE(listener_.wait_until(
+      [](const Heard& heard) { return heard.statuses.back().device_errors == 7; }, seconds(3)));
+}
+
 TEST_F(EachPipeline, WaitsForACameraThatIsNotThereYet) {
   auto source = std::make_unique<test::ScriptedSource>(run_);
   source->is_absent = true;

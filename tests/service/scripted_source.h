@@ -19,11 +19,12 @@ class ScriptedSource final : public FrameSource {
  public:
   explicit ScriptedSource(const SyntheticRun& run) : run_(run) {}
 
-  std::atomic<bool> is_absent = false;        // start() fails, wait_next() loses the device
-  std::atomic<bool> is_hanging = false;       // wait_next() does not return
-  std::atomic<bool> is_silent = false;        // nothing arrives
-  std::atomic<bool> has_bad_frames = false;   // each pair is unusable
-  std::atomic<std::int64_t> last_frame = -1;  // the source ends there; -1: never
+  std::atomic<bool> is_absent = false;             // start() fails, wait_next() loses the device
+  std::atomic<bool> is_hanging = false;            // wait_next() does not return
+  std::atomic<bool> is_silent = false;             // nothing arrives
+  std::atomic<bool> has_bad_frames = false;        // each pair is unusable
+  std::atomic<std::int64_t> stamps_of_future = 0;  // that it says it had
+  std::atomic<std::int64_t> last_frame = -1;       // the source ends there; -1: never
   std::atomic<int> starts = 0;
   std::atomic<int> stops = 0;
   std::atomic<int> leases = 0;       // that are out
@@ -69,7 +70,9 @@ class ScriptedSource final : public FrameSource {
     ++stops;
     most_leases = std::max(most_leases.load(), leases.load());
   }
-  [[nodiscard]] SourceStats stats() const override { return {}; }
+  [[nodiscard]] SourceStats stats() const override {
+    return {.stamps_of_future = stamps_of_future};
+  }
 
  private:
   const SyntheticRun& run_;

@@ -209,6 +209,9 @@ void FakeV4l2Device::fill_next(MonotonicTime ready_at) {
   buffer.sequence = sequence;
   buffer.flags = stamp_flags;
   buffer.bytesused = format_.image_bytes;
+  if (paint) {
+    buffer.bytesused = static_cast<std::uint32_t>(paint(sequence, memory_[buffer.index].get()));
+  }
   full_.push_back(buffer);
 }
 

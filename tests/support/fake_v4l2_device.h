@@ -52,6 +52,8 @@ class FakeV4l2Device {
   std::map<unsigned long, int> errors;       // errno of a request, every time
   std::function<int(unsigned long)> refuse;  // errno of a request, asked each time
   std::function<void(v4l2_buffer&)> alter;   // a full buffer's description
+  // Fills the buffer of a frame in place of level(), and says with how many bytes.
+  std::function<std::size_t(std::uint32_t sequence, std::uint8_t* bytes)> paint;
   int maps_allowed = 1000;
   bool is_stalled = false;
   bool is_gone = false;

@@ -1,40 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/hostile_input.h"
 
-#include <stdexcept>
-#include <string>
+#include <array>
 
-#include <sys/mman.h>
-#include <unistd.h>
-
+#include "drivers/camera/jpeg_luma.h"
 #include "drivers/framelog/framelog_source.h"
+#include "support/memory_file.h"
 #include "support/message_cases.h"
+#include "support/require.h"
 
 namespace darkling::test {
 
 namespace {
-
-void require(bool holds, const char* rule) {
-  if (!holds) throw std::logic_error(rule);
-}
-
-// A file in memory.
-class MemoryFile {
- public:
-  explicit MemoryFile(std::span<const std::byte> bytes) : descriptor_(::memfd_create("log", 0)) {
-    require(descriptor_ >= 0, "a file in memory can be made");
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    require(written == static_cast<ssize_t>(bytes.size()), "and written");
-  }
-  ~MemoryFile() { ::close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
 
 template <class Message>
 bool is_decoded_as(std::span<const std::byte> bytes) {
@@ -59,6 +36,15 @@ int decode_anything(std::span<const std::byte> bytes) {
   for_each_message(
       [&](const auto& m) { types += is_decoded_as<std::decay_t<decltype(m)>>(bytes) ? 1 : 0; });
   return types;
+}
+
+bool decode_any_jpeg(std::span<const std::byte> bytes) {
+  constexpr int kWidth = 32;
+  constexpr int kHeight = 16;
+  static JpegLuma luma(kWidth);
+  std::array<std::uint8_t, kWidth* kHeight> pixels = {};
+  return luma.decode({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()},
+                     {pixels.data(), kWidth, kHeight, kWidth});
 }
 
 std::int64_t play_anything(std::span<const std::byte> bytes) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/camera/arrival_stamps.h"
+
 namespace darkling::test {
 namespace {
 
@@ -62,6 +64,44 @@ TEST(StampCapture, TakesTheArrivalForStampsThatCannotBe) {
     EXPECT_EQ(stamp.source, StampSource::kArrival);
     EXPECT_EQ(middle(stamp), std::chrono::seconds(100));
   }
+}
+
+TEST(StampCapture, BelievesStampsThatAreAheadByTheClocksGrainAndNoMore) {
+  for (const std::uint32_t flags : {kStart, kEndOfFrame}) {
+    const CaptureStamp grain = stamp_capture(stamped(flags, 100, 1'000), kArrival, 0.0);
+    EXPECT_FALSE(grain.is_of_future);
+    EXPECT_EQ(middle(grain), milliseconds(100'001));
+    for (const v4l2_buffer& buffer : {stamped(flags, 100, 1'001), stamped(flags, 100, 400'000),
+                                      stamped(flags, 3'700, 0), stamped(flags, INT32_MAX, 0)}) {
+      const CaptureStamp ahead = stamp_capture(buffer, kArrival, 10.0);
+      EXPECT_TRUE(ahead.is_of_future);
+      EXPECT_EQ(ahead.source, StampSource::kArrival);
+      EXPECT_EQ(middle(ahead), milliseconds(99'995));
+    }
+  }
+}
+
+TEST(StampCapture, DoesNotTakeAnotherClockForTheFuture) {
+  EXPECT_FALSE(
+      stamp_capture(stamped(V4L2_BUF_FLAG_TIMESTAMP_COPY, 3'700, 0), kArrival, 10.0).is_of_future);
+  EXPECT_FALSE(stamp_capture(stamped(kStart, 99, -1), kArrival, 10.0).is_of_future);
+}
+
+TEST(ArrivalStamps, GoByWhatTheLastGoodFrameTookToArrive) {
+  const FrameTime arrival{std::chrono::seconds(100)};
+  ArrivalStamps stamps;
+  EXPECT_EQ(stamps.estimate(arrival, arrival - kPeriod), arrival - kPeriod);
+  EXPECT_EQ(stamps.note(arrival - milliseconds(30), arrival), arrival - milliseconds(30));
+  EXPECT_EQ(stamps.estimate(arrival + kPeriod, arrival), arrival + milliseconds(20));
+}
+
+TEST(ArrivalStamps, AreNeverLaterThanTheArrivalAndLearnNothingFromWhatIs) {
+  const FrameTime arrival{std::chrono::seconds(100)};
+  ArrivalStamps stamps;
+  static_cast<void>(stamps.note(arrival - milliseconds(30), arrival));
+  EXPECT_EQ(stamps.note(arrival + milliseconds(8), arrival), arrival);
+  EXPECT_EQ(stamps.note(arrival - std::chrono::hours(1), arrival), arrival - std::chrono::hours(1));
+  EXPECT_EQ(stamps.estimate(arrival, arrival), arrival - milliseconds(30));
 }
 
 TEST(StampUncertainty, IsTheUnitOfAFixedExposure) {

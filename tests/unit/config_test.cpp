@@ -118,6 +118,10 @@ TEST(LoadConfig, TakesTextsAsTheyAreButNoControlCharacters) {
   EXPECT_EQ(load_content("channel_prefix: 12\n")->service.channel_prefix, "12");
   expect_refused(load_content("channel_prefix: \"a\\nb\"\n"), ExitCode::kConfiguration,
                  "rover.yaml:1: key 'channel_prefix'");
+  const std::string longest(53, 'x');  // LCM's 63 less "VO_COMMAND"
+  EXPECT_EQ(load_setting("channel_prefix=" + longest)->service.channel_prefix, longest);
+  expect_refused(load_setting("channel_prefix=" + longest + "x"), ExitCode::kUsage,
+                 "text of up to 53 characters");
   expect_refused(load_content("camera: [a, b]\n"), ExitCode::kConfiguration, "a list or a map");
 }
 

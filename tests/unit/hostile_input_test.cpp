@@ -2,14 +2,16 @@
 // The fuzzers' targets under random damage; tests/fuzz/run.sh searches for longer and better.
 #include "support/hostile_input.h"
 
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "drivers/camera/jpeg_luma.h"
+#include "support/jpeg_images.h"
 #include "support/message_cases.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_frame_log.h"
+#include "support/try_damaged.h"
 
 namespace darkling::test {
 namespace {
@@ -24,45 +26,6 @@ std::vector<std::byte> tiny_log_bytes() {
   return {bytes.begin(), bytes.end()};
 }
 
-// A few bytes changed, a piece removed, doubled or moved, or the end cut off.
-void damage(std::vector<std::byte>& bytes, std::mt19937& random) {
-  const std::size_t at = random() % bytes.size();
-  const std::size_t length = 1 + random() % std::min<std::size_t>(bytes.size() - at, 64);
-  const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(at);
-  const auto last = first + static_cast<std::ptrdiff_t>(length);
-  const std::vector<std::byte> piece(first, last);
-  const auto elsewhere = [&] {
-    return bytes.begin() + static_cast<std::ptrdiff_t>(random() % bytes.size());
-  };
-  switch (random() % 5) {
-    case 0:
-      for (auto byte = first; byte != last; ++byte) *byte = static_cast<std::byte>(random());
-      break;
-    case 1:
-      *first ^= std::byte{1} << random() % 8;
-      break;
-    case 2:
-      if (bytes.size() > length) bytes.erase(first, last);
-      break;
-    case 3:
-      bytes.insert(elsewhere(), piece.begin(), piece.end());
-      break;
-    default:
-      if (random() % 8 == 0) bytes.resize(at + 1);
-  }
-}
-
-template <class Target>
-void try_damaged(const std::vector<std::byte>& sound, const Target& target, int rounds,
-                 std::uint32_t seed) {
-  std::mt19937 random(seed);
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<std::byte> bytes = sound;
-    for (unsigned i = 0; i <= random() % 6; ++i) damage(bytes, random);
-    ASSERT_NO_THROW(target(bytes)) << "seed " << seed << ", round " << round;
-  }
-}
-
 TEST(HostileInput, DoesNotBreakTheFrameLogReader) {
   try_damaged(tiny_log_bytes(), play_anything, kRounds, 1);
 }
@@ -72,6 +35,15 @@ TEST(HostileInput, DoesNotBreakTheMessageDecoders) {
   for_each_message([&seed](const auto& message) {
     try_damaged(encoded(message), decode_anything, kRounds, seed++);
   });
+}
+
+TEST(HostileInput, DoesNotBreakTheDecoderOfJpegs) {
+  if (!can_decode_jpeg()) GTEST_SKIP() << "built without libjpeg";
+  const auto jpeg = jpeg_image(32, 16, {.is_colour = true});
+  const auto bytes = std::as_bytes(std::span(jpeg));
+  const std::vector<std::byte> sound(bytes.begin(), bytes.end());
+  try_damaged(sound, decode_any_jpeg, kRounds, 3);
+  EXPECT_TRUE(decode_any_jpeg(sound));
 }
 
 // What is right is played and decoded: else the above would be about refusals only.

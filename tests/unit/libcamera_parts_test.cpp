@@ -88,6 +88,16 @@ TEST(StampFrame, TakesTheArrivalForWhatMakesNoSense) {
   }
 }
 
+TEST(StampFrame, TellsTheFutureFromWantOfAStamp) {
+  for (const Duration stamp :
+       {Duration(milliseconds(1002)), Duration(std::chrono::hours(9)), Duration::max()}) {
+    EXPECT_TRUE(stamp_frame(stamped(stamp), Duration::zero(), 10.0).is_of_future);
+  }
+  for (const Duration stamp : {Duration::zero(), Duration{-5}, Duration(milliseconds(1001))}) {
+    EXPECT_FALSE(stamp_frame(stamped(stamp), Duration::zero(), 10.0).is_of_future);
+  }
+}
+
 TEST(StampFrame, IsOffByAnExposureOrAPeriodAtMost) {
   using enum StampSource;
   const Duration period = milliseconds(50);

@@ -46,6 +46,26 @@ TEST_F(LibcameraSourceFaults, ReportsTheOtherEyeOfABadRequestAsUnpaired) {
   EXPECT_EQ(source_->stats().unpaired, 1);
 }
 
+TEST_F(LibcameraSourceFaults, CountsStampsOfTheFutureAndGoesOnAtTheSamePace) {
+  share();
+  start();
+  FrameTime before;
+  for (int k = 0; k < 4; ++k) {
+    CompletedFrame completed = frame(k);
+    if (k == 2) completed.stamp_ns += to_ns(MonotonicTime(std::chrono::hours(1)));
+    left_.expose(completed);
+    const WaitResult result = next();
+    ASSERT_EQ(result.status, WaitStatus::kFrame);
+    const FrameTime stamp = result.lease.frame().stamp;
+    if (k > 0) {
+      EXPECT_EQ(stamp - before, std::chrono::milliseconds(50));
+    }
+    before = stamp;
+  }
+  EXPECT_EQ(source_->stats().stamps_of_future, 1);
+  EXPECT_EQ(source_->stats().device_errors, 0);
+}
+
 TEST_F(LibcameraSourceFaults, DeliversWhatCameBeforeACameraWentAndOpensItAnew) {
   start();
   expose(0);

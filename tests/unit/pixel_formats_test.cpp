@@ -108,6 +108,7 @@ TEST(PixelFormats, DoesNotAskForPaddingBehindTheLastRow) {
 TEST(PixelFormats, ReadsNoByteBehindTheImage) {
   Random random(7);
   for (const PixelFormat format : kPixelFormats) {
+    if (is_compressed(format)) continue;  // jpeg_luma_test.cpp
     for (int i = 0; i < 50; ++i) {
       const ImageExtent extent{random.integer(1, 33), random.integer(1, 9)};
       const std::ptrdiff_t stride = row_bytes(format, extent.width) + random.integer(0, 5);
@@ -128,7 +129,7 @@ TEST(PixelFormats, FindsEveryFormatByItsCodes) {
   }
   EXPECT_EQ(fourccs_of(PixelFormat::kBayer).size(), 4u);
   EXPECT_TRUE(fourccs_of(PixelFormat::kAny).empty());
-  EXPECT_FALSE(pixel_format_of(V4L2_PIX_FMT_MJPEG).has_value());
+  EXPECT_FALSE(pixel_format_of(V4L2_PIX_FMT_H264).has_value());
   EXPECT_FALSE(pixel_format_of(0).has_value());
 }
 

@@ -69,6 +69,7 @@ class HostileCameras : public TwoCameras {
 
   void take(FrameLease lease) {
     const StereoFrame& frame = lease.frame();
+    EXPECT_LE(to_ns(frame.stamp), to_ns(system_.now()));
     ASSERT_TRUE(frame.left.has_size(32, 16) && frame.right.has_size(32, 16));
     sum_ += frame.left.at(31, 15) + frame.right.at(31, 15);  // a sanitizer sees what is not there
     check_grows(frame.sequence);

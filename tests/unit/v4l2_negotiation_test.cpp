@@ -84,9 +84,9 @@ TEST_F(NegotiateFormat, ComputesTheStrideThatADeviceDoesNotTell) {
 }
 
 TEST_F(NegotiateFormat, ListsWhatTheDeviceOffersWhenNothingFits) {
-  camera_.formats = {{V4L2_PIX_FMT_MJPEG, 32, 16, 0, 512}, {V4L2_PIX_FMT_GREY, 640, 480, 640, 1}};
+  camera_.formats = {{V4L2_PIX_FMT_H264, 32, 16, 0, 512}, {V4L2_PIX_FMT_GREY, 640, 480, 640, 1}};
   EXPECT_THAT(refusal(), AllOf(HasSubstr("wanted: any at 32x16"),
-                               HasSubstr("offers: MJPG 32x16, GREY 640x480")));
+                               HasSubstr("offers: H264 32x16, GREY 640x480")));
   camera_.formats.clear();
   EXPECT_THAT(refusal(), HasSubstr("offers: no format"));
 }

@@ -72,6 +72,50 @@ TEST_F(V4l2SourceFaults, CountStampsThatGoBack) {
   EXPECT_EQ(source_->stats().stamps_not_increasing, 1);
 }
 
+TEST_F(V4l2SourceFaults, CountStampsOfTheFutureAndGoOnAtTheSamePace) {
+  share();
+  left_.exposure = milliseconds(30);  // and a readout of nothing
+  start();
+  alter_left(2, [](v4l2_buffer& buffer) { buffer.timestamp.tv_sec += 3600; });
+  FrameTime before;
+  for (int k = 0; k < 5; ++k) {
+    const WaitResult result = next();
+    ASSERT_EQ(result.status, WaitStatus::kFrame);
+    EXPECT_EQ(result.lease.frame().sequence, k);
+    const FrameTime stamp = result.lease.frame().stamp;
+    EXPECT_EQ(to_ns(system_.now()) - to_ns(stamp), 30'000'000);
+    if (k > 0) {
+      EXPECT_EQ(stamp - before, milliseconds(50));
+    }
+    before = stamp;
+    EXPECT_EQ(source_->camera_state().stamp_source,
+              k == 2 ? StampSource::kArrival : StampSource::kStartOfExposure);
+  }
+  EXPECT_EQ(source_->stats().stamps_of_future, 1);
+  EXPECT_EQ(source_->stats().stamps_not_increasing, 0);
+  EXPECT_EQ(source_->stats().device_errors, 0);
+}
+
+TEST_F(V4l2SourceFaults, PairAFrameOfTheFutureWithItsOwnPartner) {
+  start();
+  alter_left(1, [](v4l2_buffer& buffer) { buffer.timestamp.tv_usec += 400'000; });
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(next_sequence(), k);
+  EXPECT_EQ(source_->stats().stamps_of_future, 1);
+  EXPECT_EQ(source_->stats().unpaired, 0);
+}
+
+TEST_F(V4l2SourceFaults, StampByArrivalACameraThatIsAlwaysAhead) {
+  share();
+  start();
+  left_.alter = [](v4l2_buffer& buffer) { buffer.timestamp.tv_sec += 1; };
+  for (int k = 0; k < 3; ++k) {
+    const WaitResult result = next();
+    ASSERT_EQ(result.status, WaitStatus::kFrame);
+    EXPECT_EQ(result.lease.frame().stamp.time_since_epoch(), system_.now().time_since_epoch());
+  }
+  EXPECT_EQ(source_->stats().stamps_of_future, 3);
+}
+
 TEST_F(V4l2SourceFaults, ReportPairsThatAreTooFarApartOnce) {
   right_.phase = milliseconds(20);
   start();

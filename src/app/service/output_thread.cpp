@@ -121,7 +121,7 @@ void OutputThread::fill_counts() {
   status_.frames_unpaired = source.unpaired;
   status_.frames_bad = source.unreadable + source.wrong_size;
   status_.device_dropped = source.dropped_by_device;
-  status_.device_errors = source.device_errors;
+  status_.device_errors = source.device_errors + source.stamps_of_future;
   status_.publish_failures = publisher_.failures();
   status_.deadline_misses = deadline_misses_;
   status_.refinement_overruns = pipeline.refinement_overruns.get();

@@ -76,6 +76,14 @@ Result<void> add_wish(FrameLogWriter& log, const Wish& wish, FrameTime stamp,
   return add(log, kCommandChannel, command, stamp);
 }
 
+Result<void> add_wishes(FrameLogWriter& log, std::span<const RecordedWish> wishes,
+                        FrameTime stamp) {
+  for (const RecordedWish& recorded : wishes) {
+    if (auto added = add_wish(log, recorded.wish, stamp, /*utime_us=*/0); !added) return added;
+  }
+  return {};
+}
+
 RecordedWishes read_wishes(const FrameLog& log) {
   RecordedWishes recorded;
   for (const FrameLogMessage& message : log.messages) {

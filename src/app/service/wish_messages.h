@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "app/service/command_ring.h"
@@ -27,6 +28,12 @@ struct RecordedWishes {
 // @param stamp  of the frame that it was taken before.
 [[nodiscard]] Result<void> add_wish(FrameLogWriter& log, const Wish& wish, FrameTime stamp,
                                     std::int64_t utime_us);
+
+// Writes again what read_wishes() read, to the bit. The times in the messages are lost, which mean
+// nothing to a replay.
+// @param stamp  of the frame that all of `wishes` were taken before.
+[[nodiscard]] Result<void> add_wishes(FrameLogWriter& log, std::span<const RecordedWish> wishes,
+                                      FrameTime stamp);
 
 // All that add_wish() wrote, to the bit: obeyed again, they give the same estimates again. What
 // came after the last pair is left out, and so are commands that are not for the odometry.

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdint>
+
+#include "support/hostile_text.h"
+
+// libFuzzer's entry: one input.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes,  // NOLINT
+                                      std::size_t size) {
+  darkling::test::load_any_config(std::as_bytes(std::span(bytes, size)));
+  return 0;
+}
