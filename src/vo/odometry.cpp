@@ -13,8 +13,6 @@ namespace darkling {
 
 namespace {
 
-// Frames lost in a row after which the keyframe is given up and the present frame becomes one.
-constexpr int kLostFramesBeforeReset = 3;
 // The same image this often more is no camera that stands still: its noise would differ.
 constexpr int kFrozenRepeats = 2;
 // Beyond these, a motion that was measured says nothing of where the vehicle is.
@@ -58,6 +56,7 @@ void Odometry::State::finish_refinement() {
     *T_world = window.newest().T_world_key * T_before_key * *T_world;
   }
   T_world_key = window.newest().T_world_key;
+  follow_window(window, ring);
 }
 
 // Brings the frame's left eye into the shape that everything else works on.
@@ -128,21 +127,6 @@ void Odometry::State::report_covariance(Estimate& estimate) {
   is_reported_measured = is_measured || estimate.is_keyframe;
 }
 
-// The frame could not be aligned: hold the pose; after a while start again from here.
-void Odometry::State::lose(const StereoFrame& frame, Estimate& estimate) {
-  estimate.status = TrackStatus::kLost;
-  estimate.quality = -1;
-  T_before_previous = Se3();
-  if (++lost_in_a_row >= kLostFramesBeforeReset) window.count = 0;  // nothing leads to it from here
-  if (lost_in_a_row >= kLostFramesBeforeReset && make_keyframe(frame, estimate)) {
-    ++reset_counter;
-    covariance.reset();
-    previous_sequence = frame.sequence;
-    lost_in_a_row = 0;
-  }
-  report(T_world_previous, estimate);
-}
-
 Estimate Odometry::track(const StereoFrame& frame) {
   State& s = *state_;
   s.finish_refinement();
@@ -189,6 +173,7 @@ Estimate Odometry::track(const StereoFrame& frame) {
   }
   s.accept(s.T_world_key * alignment.T_current_key.inverse(), frame.sequence);
   if (judgement.is_keyframe_due || s.is_reseed_wanted) {
+    s.rejoin_track(frame, estimate);
     const bool is_made = s.make_keyframe(frame, estimate);
     s.is_reseed_wanted &= !is_made;
     if (!is_made) estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
