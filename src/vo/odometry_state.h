@@ -112,6 +112,7 @@ struct Odometry::State {
   void report(const Se3& T_world_left, Estimate& estimate);
   void report_covariance(Estimate& estimate);
   [[nodiscard]] Se3 predict(std::int64_t sequence) const;
+  [[nodiscard]] bool is_doubtful(const AlignmentScore& score, std::int64_t sequence) const;
 };
 
 }  // namespace darkling
