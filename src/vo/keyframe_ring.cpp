@@ -54,18 +54,18 @@ void copy_level(const TemplateLevel& from_level, TemplateLevel& to_level) {
   to_level.mean_inverse_depth_focal = from_level.mean_inverse_depth_focal;
 }
 
-// Which keyframe leaves a full ring.
-RingKeyframe* leaving(std::span<RingKeyframe> keyframes) {
+// Which keyframe leaves a full ring to one of `track`.
+RingKeyframe* leaving(std::span<RingKeyframe> keyframes, int track) {
   const auto is_older = [](const RingKeyframe& a, const RingKeyframe& b) {
     return a.track < b.track;
   };
   const int oldest = std::min_element(keyframes.begin(), keyframes.end(), is_older)->track;
   const auto is_of_oldest = [oldest](const RingKeyframe& key) { return key.track == oldest; };
   const auto share = std::count_if(keyframes.begin(), keyframes.end(), is_of_oldest);
-  const auto leaver = 2 * share > std::ssize(keyframes)
-                          ? std::find_if(keyframes.begin(), keyframes.end(), is_of_oldest)
-                          : std::find_if_not(keyframes.begin(), keyframes.end(), is_of_oldest);
-  return &*leaver;
+  const auto other = std::find_if_not(keyframes.begin(), keyframes.end(), is_of_oldest);
+  const bool has_too_many = track != oldest && 2 * share > std::ssize(keyframes);
+  if (other != keyframes.end() && !has_too_many) return &*other;
+  return &*std::find_if(keyframes.begin(), keyframes.end(), is_of_oldest);
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ void allocate_ring(int level_count, int points_per_level, Arena& arena, Keyframe
 void add_to_ring(int track, const Se3& T_world_key, const PoseCovariance::Accumulated& covariance,
                  const KeyframeTemplate& points, KeyframeRing& ring) {
   if (ring.count == kRingKeyframes) {
-    RingKeyframe* const first = leaving(ring.keyframes());
+    RingKeyframe* const first = leaving(ring.keyframes(), track);
     std::rotate(first, first + 1, ring.slots.end());
     --ring.count;
   }

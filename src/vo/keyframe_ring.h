@@ -41,8 +41,9 @@ struct KeyframeRing {
 void allocate_ring(int level_count, int points_per_level, Arena& arena, KeyframeRing& ring);
 
 // Appends a keyframe, with points evenly taken from all of each level. When the ring is full the
-// oldest keyframe of the oldest track leaves, as long as that track has more than half of the ring;
-// then the oldest of the others: a track that is off must not push out what leads back to World.
+// oldest of those that are not of the oldest track leaves: what is off must not push out what leads
+// back to World. Only where there is none, or a later track still has less than half of the ring,
+// the oldest of the oldest track does.
 // Cost: a copy of 40 KiB.
 void add_to_ring(int track, const Se3& T_world_key, const PoseCovariance::Accumulated& covariance,
                  const KeyframeTemplate& points, KeyframeRing& ring);
