@@ -170,6 +170,16 @@ Matrix6 transport(const Matrix6& covariance, const Matrix6& adjoint) {
   return adjoint * covariance * adjoint.transpose();
 }
 
+// The displacement of a motion, seen from its end, is less the translation of its inverse.
+PoseCovariance::Accumulated accumulate(const PoseCovariance::Accumulated& key,
+                                       const AlignedFrame& frame, const Matrix6& of_alignment) {
+  const Se3& T_current_key = frame.alignment.T_current_key;
+  return {.covariance =
+              transport(key.covariance + kKeyframeFactor * of_alignment, T_current_key.adjoint()),
+          .scale_m =
+              T_current_key.R() * key.scale_m - scale_sigma(frame) * T_current_key.translation()};
+}
+
 Matrix6 add_scale(Matrix6 covariance, const Vector3& scale_m) {
   covariance.topLeftCorner<3, 3>() += scale_m * scale_m.transpose();
   return is_known(covariance) ? covariance : unknown_covariance();
@@ -226,6 +236,16 @@ void PoseCovariance::set_keyframe() {
   is_on_keyframe_ = true;
 }
 
+void PoseCovariance::rebase(const Accumulated& key, const KernelTable& kernels,
+                            const AlignedFrame& frame, PointInfluences& influences) {
+  const bool is_first = true;
+  current_ = accumulate(key, frame,
+                        estimate_covariances(kernels, frame, is_first, influences).of_alignment);
+  key_ = current_;  // to within the motion since, should the frame not become the keyframe
+  cov_pose_ = add_scale(current_.covariance, current_.scale_m);
+  is_on_keyframe_ = true;  // no influences of the frame before are left
+}
+
 void PoseCovariance::move(const KernelTable& kernels, const AlignedFrame& frame,
                           PointInfluences& influences) {
   const AlignmentCovariances aligned =
@@ -235,10 +255,7 @@ void PoseCovariance::move(const KernelTable& kernels, const AlignedFrame& frame,
   const Matrix6 adjoint = T_current_key.adjoint();
   const double sigma = scale_sigma(frame);
 
-  // The displacement of a motion, seen from its end, is less the translation of its inverse.
-  current_.covariance =
-      transport(key_.covariance + kKeyframeFactor * aligned.of_alignment, adjoint);
-  current_.scale_m = T_current_key.R() * key_.scale_m - sigma * T_current_key.translation();
+  current_ = accumulate(key_, frame, aligned.of_alignment);
   cov_motion_ =
       add_scale(transport(aligned.of_change, adjoint), sigma * T_current_previous.translation());
   cov_pose_ = add_scale(current_.covariance, current_.scale_m);

@@ -94,12 +94,25 @@ struct AlignmentCovariances {
 // keyframes may be corrected without its knowing.
 class PoseCovariance {
  public:
+  // What is not known of one frame's pose.
+  struct Accumulated {
+    Matrix6 covariance = Matrix6::Zero();  // without (4)
+    Vector3 scale_m = Vector3::Zero();     // Σ σ p
+  };
+
   // Starts over: the present frame is a keyframe, and its pose what others are relative to.
   void reset();
   // The frame that moved last becomes the keyframe.
   void set_keyframe();
   // A frame was aligned to the keyframe.
   void move(const KernelTable& kernels, const AlignedFrame& frame, PointInfluences& influences);
+
+  // The pose of the frame that moved last is known anew, from an alignment to another keyframe,
+  // whose keyframe() was `key` then. Its motion stays as it was measured.
+  void rebase(const Accumulated& key, const KernelTable& kernels, const AlignedFrame& frame,
+              PointInfluences& influences);
+  // Of the present keyframe's pose.
+  [[nodiscard]] const Accumulated& keyframe() const { return key_; }
 
   // Right perturbation of T_previous_left, previous being the frame before on which move() or
   // reset() was called.
@@ -108,12 +121,6 @@ class PoseCovariance {
   [[nodiscard]] const Matrix6& pose() const { return cov_pose_; }
 
  private:
-  // What is not known of one frame's pose.
-  struct Accumulated {
-    Matrix6 covariance = Matrix6::Zero();  // without (4)
-    Vector3 scale_m = Vector3::Zero();     // Σ σ p
-  };
-
   Accumulated key_;      // of T_start_key
   Accumulated current_;  // of T_start_current
   Se3 T_current_key_;

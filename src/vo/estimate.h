@@ -13,7 +13,7 @@ enum class TrackStatus : std::uint8_t {
   kUnknown = 0,
   kValid,     // the motion is measured
   kDegraded,  // measured, but something in `reasons` made it worse than usual
-  kLost,      // not measured: the pose is held or predicted
+  kLost,      // not measured: the pose is held or predicted, or that of a place seen before
 };
 
 // Why a frame is not simply kValid: bits, any number of them at once.
@@ -69,16 +69,16 @@ struct Estimate {
   std::uint32_t reasons = kReasonNone;  // Reason bits
   int quality = 0;                      // -1 failed, 0 unknown, 1…100
   bool is_keyframe = false;             // became the template of the frames that follow
-  int reset_counter = 0;                // how often the track was broken and re-anchored
-  Se3 T_world_left;                     // accumulated; held or predicted while kLost
+  int reset_counter = 0;                // how often the pose jumped or the track was broken
+  Se3 T_world_left;                     // accumulated; while kLost see there
   Se3 T_world_body;
   // Motion since the previous Estimate, as measured. Poses follow a refinement of the keyframes
   // behind them little by little; that is no motion, and not in here.
   Se3 T_previous_body;
   // Covariances of right perturbations, T = T_true exp(ξ), ξ = (translation, rotation) in Body: m²,
-  // m·rad, rad². Not known is 9999 on the diagonal and 0 beside it: of both while kLost, and of the
-  // motion when the previous Estimate was not measured or there is none. The pose's counts from
-  // where tracking started, at the first keyframe or at the last reset: there it is zero.
+  // m·rad, rad². Not known is 9999 on the diagonal and 0 beside it: while kLost, of the motion, and
+  // of the pose unless a place was recognised; of the motion also when the Estimate before was not
+  // measured. The pose's counts from the first keyframe, or from where tracking began anew.
   Matrix6 cov_previous_body = Matrix6::Zero();
   Matrix6 cov_world_body = Matrix6::Zero();
   int point_count = 0;            // template points of the finest level seen in this frame

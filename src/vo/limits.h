@@ -22,6 +22,10 @@ inline constexpr int kMinWindowKeyframes = 2;
 inline constexpr int kMaxWindowKeyframes = 8;
 inline constexpr int kMinWindowPoints = 50;    // of a keyframe
 inline constexpr int kMaxWindowPoints = 1000;  // of a keyframe
+// Keyframes that a lost track may find itself again by. Half of them stay for World's own track.
+inline constexpr int kRingKeyframes = 20;
+inline constexpr int kRingPoints = 512;       // of each at the finest level, at most
+inline constexpr int kRingCoarsePoints = 64;  // of each at every other level, at most
 // px, of the level that is matched densely: 32 disparities are a sixth of it.
 inline constexpr int kMaxStereoWidth = 192;
 

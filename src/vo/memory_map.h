@@ -47,6 +47,8 @@ inline constexpr std::array kBufferRows = std::to_array<BufferRow>({
     {"influence tiles", "track", "track", "scratch: sums of the points of a tile"},
     {"template points", "select", "track", "of the keyframe: every level, six arrays"},
     {"template patches", "select", "track", "of the keyframe: every level"},
+    {"ring points", "select", "track", "each keyframe of the ring: every level, six arrays"},
+    {"ring patches", "select", "track", "each keyframe of the ring: every level"},
     {"points of the window", "select", "select", "scratch: which point a pixel shows"},
     {"window points", "select, refine", "select, refine", "each keyframe: six arrays"},
     {"window patches", "select", "refine", "each keyframe"},

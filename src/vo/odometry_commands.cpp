@@ -19,6 +19,7 @@ void Odometry::reset() {
   s.finish_refinement();
   for (TemplateLevel& level : s.keyframe.levels) level.points.count = 0;
   s.window.count = 0;
+  s.ring.count = 0;
   for (Se3* T : {&s.T_world_key, &s.T_world_previous, &s.T_before_previous, &s.T_world_reported}) {
     *T = Se3();
   }

@@ -58,6 +58,7 @@ Odometry::State::MapMemory Odometry::State::allocate_buffers(Arena& from) {
   motions = allocate_motion_scratch(config.points_per_level, from);
   influences = allocate_influences(config.points_per_level, from);
   keyframe = allocate_template(levels, config.points_per_level, from);
+  allocate_ring(levels, config.points_per_level, from, ring);
   if (config.refinement) {
     point_image = allocate_point_image(rig, from);
     allocate_window(rig, config, from, window);

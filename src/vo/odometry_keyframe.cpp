@@ -92,6 +92,7 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
   }
   T_world_key = T_world_previous;
   covariance.set_keyframe();
+  add_to_ring(track, T_world_key, covariance.keyframe(), keyframe, ring);
   estimate.is_keyframe = true;
   start_refinement();
   return true;

@@ -9,9 +9,11 @@
 #include "vo/carry_depth.h"
 #include "vo/covariance.h"
 #include "vo/frame_pyramid.h"
+#include "vo/keyframe_ring.h"
 #include "vo/keyframe_template.h"
 #include "vo/match_stereo.h"
 #include "vo/odometry.h"
+#include "vo/recognise_place.h"
 #include "vo/refine_window.h"
 #include "vo/refinement_runner.h"
 #include "vo/separate_motions.h"
@@ -39,6 +41,7 @@ struct Odometry::State {
   MotionScratch motions;
   PointInfluences influences;
   KeyframeTemplate keyframe;
+  KeyframeRing ring;
   PointImage point_image;
   Window window;
   WindowEquations equations;
@@ -62,6 +65,7 @@ struct Odometry::State {
   std::optional<Se3> hinted;  // T_previous_left, for the next frame only
   bool is_reseed_wanted = false;
   int reset_counter = 0;
+  int track = 0;                  // in the ring; what reset_counter was when it began
   int frames_since_look = 0;      // at the right eye
   bool do_eyes_disagree = false;  // as far as the last look could tell
   int misplaced_looks = 0;        // in a row
@@ -103,10 +107,16 @@ struct Odometry::State {
   void start(const StereoFrame& frame, Estimate& estimate);
   void pass_over(Estimate& estimate);
   void lose(const StereoFrame& frame, Estimate& estimate);
+  [[nodiscard]] std::optional<Recognition> recognise(const StereoFrame& frame, int before_track,
+                                                     Estimate& estimate);
+  [[nodiscard]] bool begin_track(const StereoFrame& frame, Estimate& estimate);
+  [[nodiscard]] bool find_again(const StereoFrame& frame, Estimate& estimate);
+  void rejoin_track(const StereoFrame& frame, Estimate& estimate);
   void accept(const Se3& T_world_left, std::int64_t sequence);
   void report(const Se3& T_world_left, Estimate& estimate);
   void report_covariance(Estimate& estimate);
   [[nodiscard]] Se3 predict(std::int64_t sequence) const;
+  [[nodiscard]] bool is_doubtful(const AlignmentScore& score, std::int64_t sequence) const;
 };
 
 }  // namespace darkling
