@@ -48,7 +48,9 @@ ImageMeasure Odometry::State::prepare_right(const StereoFrame& frame, Estimate& 
 }
 
 // Turns the present frame, whose left pyramid is built and whose pose is known, into the keyframe.
-// @return false, with the reason, and the old keyframe stays, when the pair shows too little depth.
+// @return false, with the reason, and the old keyframe stays, when the pair shows too little depth
+// or
+//         the right eye not what the old keyframe foretells.
 bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate) {
   const ImageJudgement seen = judge_image(prepare_right(frame, estimate));
   if (seen.status == TrackStatus::kLost) {
@@ -57,6 +59,8 @@ bool Odometry::State::make_keyframe(const StereoFrame& frame, Estimate& estimate
   }
   if (!keyframe.is_empty() && estimate.status != TrackStatus::kLost) {
     compare_eyes(T_world_previous.inverse() * T_world_key);
+    // A pose in doubt may itself be why the right eye sees something else.
+    if (do_eyes_disagree && estimate.status == TrackStatus::kValid) return false;
   }
   {
     StageTimer timer(read_clock, estimate, Stage::kStereo);
