@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "vo/copy_points.h"
 
 namespace darkling {
 
@@ -37,21 +38,9 @@ TemplateLevel take_level(int capacity, float*& arrays, PlanePatch*& patches) {
   return level;
 }
 
-void copy_level(const TemplateLevel& from_level, TemplateLevel& to_level) {
-  const TemplatePoints& from = from_level.points;
-  TemplatePoints& to = to_level.points;
-  to.count = std::min(from.count, to_level.capacity);
-  for (int n = 0; n < to.count; ++n) {
-    const int i = static_cast<int>(std::int64_t{n} * from.count / to.count);
-    to.x[n] = from.x[i];
-    to.y[n] = from.y[i];
-    to.inverse_depth_focal[n] = from.inverse_depth_focal[i];
-    to.Sxx[n] = from.Sxx[i];
-    to.Sxy[n] = from.Sxy[i];
-    to.Syy[n] = from.Syy[i];
-    to.patches[n] = from.patches[i];
-  }
-  to_level.mean_inverse_depth_focal = from_level.mean_inverse_depth_focal;
+void copy_level(const TemplateLevel& from, TemplateLevel& to) {
+  copy_points(from.points, to.capacity, to.points);
+  to.mean_inverse_depth_focal = from.mean_inverse_depth_focal;
 }
 
 // Which keyframe leaves a full ring to one of `track`.

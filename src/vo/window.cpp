@@ -5,6 +5,7 @@
 
 #include "geometry/stereo_rig.h"
 #include "vo/align.h"
+#include "vo/copy_points.h"
 
 namespace darkling {
 
@@ -60,16 +61,9 @@ void add_keyframe(const Se3& T_world_key, const TemplatePoints& from,
   key.T_world_key = T_world_key;
   const float b = static_cast<float>(window.baseline_m);
   TemplatePoints& to = key.points;
-  to.count = std::min(from.count, window.point_capacity);
+  copy_points(from, window.point_capacity, to);
   for (int n = 0; n < to.count; ++n) {
-    const int i = static_cast<int>(std::int64_t{n} * from.count / to.count);
-    to.x[n] = from.x[i];
-    to.y[n] = from.y[i];
-    to.inverse_depth_focal[n] = from.inverse_depth_focal[i];
-    to.Sxx[n] = from.Sxx[i];
-    to.Sxy[n] = from.Sxy[i];
-    to.Syy[n] = from.Syy[i];
-    to.patches[n] = from.patches[i];
+    const int i = spread_index(n, to.count, from.count);
     key.stereo_depth[n] = stereo[i].disparity_px / b;
     key.stereo_information[n] = kCostOfInformation * b * b / stereo[i].variance_px2;
     key.information[n] = key.stereo_information[n];
