@@ -13,8 +13,6 @@ namespace darkling {
 
 namespace {
 
-// The same image this often more is no camera that stands still: its noise would differ.
-constexpr int kFrozenRepeats = 2;
 // Share of points that fit nothing above which a second motion is looked for. A body is noticed by
 // this when it moves by some pixels more than the world; then it is kept an eye on.
 constexpr double kSuspiciousMisfits = 0.08;
@@ -84,12 +82,12 @@ ImageMeasure Odometry::State::prepare_left(const StereoFrame& frame, Estimate& e
   return measure;
 }
 
+// The same image again is no camera that stands still: its noise would differ. It tells nothing.
 void Odometry::State::note_repeats(const ImageMeasure& measure, Estimate& estimate) {
-  repeats = measure.hash == previous_hash ? repeats + 1 : 0;
-  previous_hash = measure.hash;
-  if (repeats < kFrozenRepeats) return;
+  const bool is_repeated = measure.hash == std::exchange(previous_hash, measure.hash);
+  if (!is_repeated) return;
   estimate.reasons |= kReasonFrozen;
-  estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+  estimate.status = TrackStatus::kLost;
 }
 
 // Looks for a second motion where there may be one: much does not fit, or there was one just now.

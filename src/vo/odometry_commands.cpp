@@ -31,7 +31,7 @@ void Odometry::reset() {
   s.frames_since_look = 0;
   s.do_eyes_disagree = false;
   s.misplaced_looks = 0;
-  s.repeats = 0;
+  s.frames_to_watch = 0;
   s.previous_hash = 0;
   s.is_reported_measured = false;
   s.covariance.reset();

@@ -70,7 +70,6 @@ struct Odometry::State {
   bool do_eyes_disagree = false;  // as far as the last look could tell
   int misplaced_looks = 0;        // in a row
   std::uint64_t previous_hash = 0;
-  int repeats = 0;          // of the same image, in a row
   int frames_to_watch = 0;  // for a body that passes before the cameras
   PoseCovariance covariance;
   bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to

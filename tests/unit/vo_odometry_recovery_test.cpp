@@ -92,7 +92,7 @@ TEST_F(Recovery, ComesBackFromAnotherPlace) {
 TEST_F(Recovery, JoinsTheOldTrackOnTheWayBack) {
   drive(0, 16);
   go_dark(12);
-  drive(56, 59);  // out of sight of the ring: a new track
+  drive(55, 58);  // out of sight of the ring: a new track
   Estimate estimate = go_to(58);
   EXPECT_EQ(estimate.status, TrackStatus::kValid);
   EXPECT_EQ(estimate.reset_counter, 1);

@@ -152,5 +152,20 @@ TEST(RightEye, IsMissedWithinFiveFramesOfBeingCoveredAndFoundAgain) {
   EXPECT_EQ(estimate.status, TrackStatus::kValid) << "the last frames are whole again";
 }
 
+// A camera that stands still has noise, so that no image of it is like the one before.
+TEST(Odometry, LearnsNothingFromTheSameImageAgain) {
+  const SyntheticRun& run = test::synthetic_run(kCorridor);
+  const auto odometry = Odometry::create({.width_px = 160}, run.rig, KernelTable(), stopped_clock);
+  ASSERT_TRUE(odometry);
+  for (int i = 0; i < 10; ++i) {
+    const bool is_frozen = i == 5 || i == 6;
+    const auto shown = static_cast<std::size_t>(is_frozen ? 4 : i);
+    const Estimate estimate = (*odometry)->track(run.frames[shown].at(i));
+    EXPECT_EQ(estimate.status, is_frozen ? TrackStatus::kLost : TrackStatus::kValid) << i;
+    EXPECT_EQ(estimate.reasons, is_frozen ? kReasonFrozen : kReasonNone) << i;
+    EXPECT_FALSE(is_confident_and_wrong(estimate, run.T_world_body[static_cast<std::size_t>(i)]));
+  }
+}
+
 }  // namespace
 }  // namespace darkling
