@@ -24,6 +24,11 @@ constexpr double kMinSupport = 0.1;
 // the points agree on another motion than the rest, by chance and by clouds.
 constexpr int kMaxImbalance = 3;
 
+// Translations of two motions differ by so many px of the image of what goes with the second one.
+// In a quarry, sky and hills often agree on another rotation than the ground, with translations
+// that are 0.1 px apart there, mostly, and 0.9 at most; behind a board they were 1.7 and more.
+constexpr double kMinDifferencePx = 1.0;
+
 // A point of the motion that lies behind counts for so many of the one before it: what covers
 // something is nearer than that. Nor is it more, as the distance alone may agree on what is wrong:
 // the sky with the lens's own shading, in a quarry, a third as many points as the ground.
@@ -50,6 +55,12 @@ bool is_world(const Support& support, const Support& other) {
       support.inverse_depths * other.count < other.inverse_depths * support.count;
   return is_behind ? kPointsBehind * support.count > other.count
                    : support.count > kPointsBehind * other.count;
+}
+
+// @pre points go with the second.
+double difference_px(const Alignment& first, const Alignment& second, const Support& by_second) {
+  const double difference_m = minus(first.T_current_key, second.T_current_key).head<3>().norm();
+  return difference_m * by_second.inverse_depths / by_second.count;
 }
 
 PointWarp warp_at(const MotionSearch& search, int level, const Alignment& alignment) {
@@ -191,7 +202,8 @@ MotionCount separate_motions(const MotionSearch& search, Alignment& alignment) {
   const Alignment first = alignment;
   const auto [second, by] = find_second(search, first);
   const int iterations = first.iterations + second.iterations;
-  if (!is_supported(by.second, by.visible) || kMaxImbalance * by.second.count < by.first.count) {
+  if (!is_supported(by.second, by.visible) || kMaxImbalance * by.second.count < by.first.count ||
+      difference_px(first, second, by.second) < kMinDifferencePx) {
     sample(search, 0, alignment);
     alignment.iterations = iterations;
     return MotionCount::kOne;
