@@ -29,9 +29,10 @@ constexpr int kMaxImbalance = 3;
 // that are 0.1 px apart there, mostly, and 0.9 at most; behind a board they were 1.7 and more.
 constexpr double kMinDifferencePx = 1.0;
 
-// By so much more than the first one's the second one's cost may be, of all points. Behind boards
-// it is up to 0.18 more in most frames; with what a quarter of the points agree on by chance, 0.2
-// to 0.35. Higher, at 0.22, boards mislead in fewer frames, and what is only by chance in more.
+// By so much more than the first one's the second one's cost may be, of all points, to count for
+// more than a warning. Behind boards it is up to 0.18 more in most frames; with what a quarter of
+// the points agree on by chance, 0.2 to 0.35. Higher, at 0.22, boards mislead in fewer frames, and
+// what is only by chance in more.
 constexpr double kMaxCostAbove = 0.20;
 
 // A point of the motion that lies behind counts for so many of the one before it: what covers
@@ -207,12 +208,15 @@ MotionCount separate_motions(const MotionSearch& search, Alignment& alignment) {
   const Alignment first = alignment;
   const auto [second, by] = find_second(search, first);
   const int iterations = first.iterations + second.iterations;
-  if (!is_supported(by.second, by.visible) || kMaxImbalance * by.second.count < by.first.count ||
-      difference_px(first, second, by.second) < kMinDifferencePx ||
-      second.score.cost > first.score.cost + kMaxCostAbove) {
+  const bool is_one = !is_supported(by.second, by.visible) ||
+                      kMaxImbalance * by.second.count < by.first.count ||
+                      difference_px(first, second, by.second) < kMinDifferencePx;
+  const MotionCount found =
+      is_one || !is_supported(by.first, by.visible) ? MotionCount::kOne : MotionCount::kTwo;
+  if (is_one || second.score.cost > first.score.cost + kMaxCostAbove) {
     sample(search, 0, alignment);
     alignment.iterations = iterations;
-    return MotionCount::kOne;
+    return found;
   }
   const bool is_second_world = is_world(by.second, by.first);
   alignment = is_second_world ? second : first;
@@ -224,7 +228,7 @@ MotionCount separate_motions(const MotionSearch& search, Alignment& alignment) {
               search.residuals, alignment);
   alignment.score = score(search, 0, alignment);
   leave_out(body, alignment.score.visible_count, search.residuals);
-  return is_supported(by.first, by.visible) ? MotionCount::kTwo : MotionCount::kOne;
+  return found;
 }
 
 }  // namespace darkling
