@@ -13,9 +13,6 @@ namespace darkling {
 
 namespace {
 
-// Descriptor distance, root mean square over the planes in 0…255, at which a point counts as not
-// matching at all. Two unrelated neighbourhoods are about 110 apart.
-constexpr double kDistanceTruncation = 80.0;
 constexpr int kMaxIterations = 30;  // a level
 // A step this small ends a level, in its own pixels. The next level goes on from there, so that
 // coarse ones need less: with 0.01 px for all it took twice the iterations and no recording's drift
@@ -156,6 +153,10 @@ PointResiduals allocate_residuals(int points_per_level, Arena& arena) {
   return {array(), array(), array()};
 }
 
+double motion_px(const Vector6& xi, double mean_inverse_depth_focal, double focal_px) {
+  return xi.head<3>().norm() * mean_inverse_depth_focal + xi.tail<3>().norm() * focal_px;
+}
+
 AlignTask task_of_level(int level, std::span<const std::uint8_t> left_out) {
   return {.step_px = level == 0 ? kConvergedStepPx : kConvergedCoarseStepPx,
           .iterations = kMaxIterations,
@@ -191,8 +192,7 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
     alignment.T_current_key = alignment.T_current_key * Se3::exp(-xi);
     ++alignment.iterations;
     const double step_px =
-        xi.head<3>().norm() * static_cast<double>(level.mean_inverse_depth_focal) +
-        xi.tail<3>().norm() * frame.focal_px;
+        motion_px(xi, static_cast<double>(level.mean_inverse_depth_focal), frame.focal_px);
     if (step_px < task.step_px) {
       alignment.has_converged = true;
       break;
@@ -205,7 +205,6 @@ Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyfra
                       const PointResiduals& scratch) {
   CHECK(!guesses.empty(), "an alignment starts somewhere");
   CHECK(keyframe.levels.size() == frame.size(), "template and frame have the same levels");
-  const int coarsest = static_cast<int>(frame.size()) - 1;
   const auto align = [&](int l, Alignment& alignment) {
     align_level(kernels, keyframe.levels[l], frame[l], task_of_level(l), scratch, alignment);
   };
@@ -213,20 +212,7 @@ Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyfra
     return score_residuals(keyframe.levels[l].points, scratch,
                            make_warp(alignment.T_current_key, frame[l]), frame[l].planes);
   };
-  Alignment best;
-  int iterations = 0;
-  for (std::size_t i = 0; i < guesses.size(); ++i) {
-    Alignment trial;
-    trial.T_current_key = guesses[i];
-    align(coarsest, trial);
-    trial.score = score(coarsest, trial);
-    iterations += trial.iterations;
-    if (i == 0 || trial.score.rank() < best.score.rank()) best = trial;
-  }
-  best.iterations = iterations;
-  for (int l = coarsest - 1; l >= 0; --l) align(l, best);
-  if (coarsest > 0) best.score = score(0, best);
-  return best;
+  return align_from_coarse(static_cast<int>(frame.size()), guesses, align, score);
 }
 
 }  // namespace darkling

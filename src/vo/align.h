@@ -12,6 +12,10 @@
 
 namespace darkling {
 
+// Descriptor distance, root mean square over the planes in 0…255, at which a point counts as not
+// matching at all. Two unrelated neighbourhoods are about 110 apart.
+inline constexpr double kDistanceTruncation = 80.0;
+
 // How well a template lies on a frame: on a fixed scale, so that it can be compared between poses,
 // frames and scenes. A scale taken from the residuals would make a wrong pose look good.
 struct AlignmentScore {
@@ -70,6 +74,9 @@ struct AlignTask {
   std::span<const std::uint8_t> left_out = {};  // of each point: not 0 if it has no say; empty: all
 };
 
+// How far a small motion moves, in px, what is at the mean depth.
+[[nodiscard]] double motion_px(const Vector6& xi, double mean_inverse_depth_focal, double focal_px);
+
 // As align_frame() aligns a level.
 [[nodiscard]] AlignTask task_of_level(int level, std::span<const std::uint8_t> left_out = {});
 
@@ -81,6 +88,31 @@ int leave_out(std::span<const std::uint8_t> left_out, int visible, const PointRe
 // step, which is too small to matter if the level converged.
 void align_level(const KernelTable& kernels, const TemplateLevel& level, const PyramidLevel& frame,
                  const AlignTask& task, const PointResiduals& residuals, Alignment& alignment);
+
+// From the best of several guesses on the coarsest level down to the finest.
+// @param guesses  of T_current_key, at least one.
+// @param align  (level, alignment): improves it on that level.
+// @param score  (level, alignment): what it is worth there, right after it was aligned.
+// @return an alignment with its score on the finest level and all iterations.
+template <typename Align, typename Score>
+[[nodiscard]] Alignment align_from_coarse(int level_count, std::span<const Se3> guesses,
+                                          const Align& align, const Score& score) {
+  const int coarsest = level_count - 1;
+  Alignment best;
+  int iterations = 0;
+  for (std::size_t i = 0; i < guesses.size(); ++i) {
+    Alignment trial;
+    trial.T_current_key = guesses[i];
+    align(coarsest, trial);
+    trial.score = score(coarsest, trial);
+    iterations += trial.iterations;
+    if (i == 0 || trial.score.rank() < best.score.rank()) best = trial;
+  }
+  best.iterations = iterations;
+  for (int l = coarsest - 1; l >= 0; --l) align(l, best);
+  if (coarsest > 0) best.score = score(0, best);
+  return best;
+}
 
 // Aligns a keyframe's template to the current frame from coarse to fine: Gauss-Newton with the
 // inverse compositional update in disparity space, one robust weight a point.

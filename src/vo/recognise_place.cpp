@@ -27,7 +27,8 @@ constexpr double kMostDifferencePx = 3.0;
 // AlignmentScore::rank(), in single precision: point i goes to lane i mod 8. What stands behind the
 // last point counts as points that left the image, the same at every rotation.
 float rank_of(const PointResiduals& residuals, int count) {
-  constexpr float kInverseTruncation = 1.0f / (80.0f * 80.0f * kPlaneCount);
+  constexpr auto kTruncation = static_cast<float>(kDistanceTruncation);
+  constexpr float kInverseTruncation = 1.0f / (kTruncation * kTruncation * kPlaneCount);
   std::array<float, kPointLanes> sums = {};
   for (int first = 0; first < count; first += kPointLanes) {
     for (int lane = 0; lane < kPointLanes; ++lane) {
@@ -38,13 +39,6 @@ float rank_of(const PointResiduals& residuals, int count) {
   float sum = 0.0f;
   for (const float lane : sums) sum += lane;
   return sum / static_cast<float>(round_up_to_lanes(count));
-}
-
-// Image motion of what is at the mean depth, between two poses.
-double difference_px(const Se3& a, const Se3& b, const TemplateLevel& finest, double focal_px) {
-  const Vector6 xi = minus(a, b);
-  return xi.head<3>().norm() * static_cast<double>(finest.mean_inverse_depth_focal) +
-         xi.tail<3>().norm() * focal_px;
 }
 
 Se3 pose_of(const Recognition& recognition) {
@@ -111,8 +105,9 @@ std::optional<Recognition> recognise_place(const KernelTable& kernels, const Key
                                                            {&match.T_current_key, 1}, scratch)};
     if (!is_beyond_doubt(found.alignment, finest, frame[0].focal_px)) continue;
     if (best && best->keyframe->track == match.keyframe->track &&
-        difference_px(pose_of(*best), pose_of(found), finest, frame[0].focal_px) >
-            kMostDifferencePx) {
+        motion_px(minus(pose_of(*best), pose_of(found)),
+                  static_cast<double>(finest.mean_inverse_depth_focal),
+                  frame[0].focal_px) > kMostDifferencePx) {
       return std::nullopt;
     }
     if (!best || is_better(found, *best)) best = found;

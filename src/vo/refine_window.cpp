@@ -82,7 +82,7 @@ double size_px(const Vector6& xi, const Window& window, const WindowKeyframe& ke
   for (int i = 0; i < keyframe.points.count; ++i) {
     depth += static_cast<double>(keyframe.points.inverse_depth_focal[i]);
   }
-  return xi.head<3>().norm() * depth / count + xi.tail<3>().norm() * window.focal_px;
+  return motion_px(xi, depth / count, window.focal_px);
 }
 
 void save(const Window& window, WindowEstimate& to) {

@@ -114,21 +114,17 @@ Alignment align_without(const MotionSearch& search, const Choose& choose) {
     align_level(search.kernels, search.keyframe.levels[level], search.frame[level],
                 task_of_level(std::max(level, 1), choose(level)), search.residuals, alignment);
   };
-  const int coarsest = static_cast<int>(search.frame.size()) - 1;
-  Alignment best;
-  int iterations = 0;
-  for (std::size_t i = 0; i < search.guesses.size(); ++i) {
-    Alignment trial;
-    trial.T_current_key = search.guesses[i];
-    align(coarsest, trial);
-    trial.score = score(search, coarsest, trial);
-    iterations += trial.iterations;
-    if (i == 0 || trial.score.rank() < best.score.rank()) best = trial;
-  }
-  best.iterations = iterations;
-  for (int l = coarsest - 1; l >= 0; --l) align(l, best);
-  best.score = score(search, 0, best);
-  return best;
+  const auto score_all = [&search](int level, const Alignment& alignment) {
+    return score(search, level, alignment);
+  };
+  return align_from_coarse(static_cast<int>(search.frame.size()), search.guesses, align, score_all);
+}
+
+// Counts point `i` where it is of this motion.
+void count_if(bool is_with, const TemplatePoints& points, int i, Support& support) {
+  if (!is_with) return;
+  ++support.count;
+  support.inverse_depths += static_cast<double>(points.inverse_depth_focal[i]);
 }
 
 Supports divide_points(const MotionSearch& search, const Alignment& first,
@@ -148,14 +144,12 @@ Supports divide_points(const MotionSearch& search, const Alignment& first,
     const float by_first = of.squares[k];
     const float by_second = search.residuals.squares[i];
     supports.visible += by_first >= 0.0f || by_second >= 0.0f ? 1 : 0;
-    of.by_first[k] = is_better(by_first, by_second) ? 1 : 0;
-    of.by_second[k] = is_better(by_second, by_first) ? 1 : 0;
-    for (Support* support : {of.by_first[k] != 0 ? &supports.first : nullptr,
-                             of.by_second[k] != 0 ? &supports.second : nullptr}) {
-      if (support == nullptr) continue;
-      ++support->count;
-      support->inverse_depths += static_cast<double>(points.inverse_depth_focal[i]);
-    }
+    const bool is_with_first = is_better(by_first, by_second);
+    const bool is_with_second = is_better(by_second, by_first);
+    of.by_first[k] = is_with_first ? 1 : 0;
+    of.by_second[k] = is_with_second ? 1 : 0;
+    count_if(is_with_first, points, i, supports.first);
+    count_if(is_with_second, points, i, supports.second);
   }
   return supports;
 }
