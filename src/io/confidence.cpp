@@ -34,7 +34,8 @@ bool is_confident(const Estimate& estimate) {
   return estimate.status == TrackStatus::kValid && estimate.quality >= kLeastQuality;
 }
 
-void ConfidenceCount::add(const Vector6& xi, const Matrix6& covariance, double true_step_m) {
+void ConfidenceCount::add(std::size_t index, const Vector6& xi, const Matrix6& covariance,
+                          double true_step_m) {
   ++counts_.frames;
   if (!is_known(covariance)) return;
   const double large_m = std::max(kLargeFloor_m, kLargeShare * true_step_m);
@@ -42,7 +43,7 @@ void ConfidenceCount::add(const Vector6& xi, const Matrix6& covariance, double t
       xi.head<3>().norm() > large_m && is_beyond_three_sigmas(xi, covariance, 0);
   const bool is_rotation_wrong =
       xi.tail<3>().norm() > kLargeAngle_rad && is_beyond_three_sigmas(xi, covariance, 3);
-  if (is_translation_wrong || is_rotation_wrong) ++counts_.wrong;
+  if (is_translation_wrong || is_rotation_wrong) counts_.wrong.push_back(index);
 }
 
 }  // namespace darkling

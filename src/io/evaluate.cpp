@@ -128,7 +128,7 @@ Confidence evaluate_confidence(const Pairs& pairs, std::span<const PoseUncertain
     const PoseUncertainty& at = uncertainties[pairs[i].index];
     if (!at.confident_motion || pairs[i].index != pairs[i - 1].index + 1) continue;
     const Se3 T_a_b_truth = se3(pairs[i - 1].truth.inverse() * pairs[i].truth);
-    count.add(minus(*at.confident_motion, T_a_b_truth),
+    count.add(pairs[i].index, minus(*at.confident_motion, T_a_b_truth),
               at.cov_motion + truth_covariance(noise, T_a_b_truth, 1),
               T_a_b_truth.translation().norm());
   }

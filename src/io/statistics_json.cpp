@@ -32,12 +32,11 @@ void put_evaluation(Json& json, const std::optional<Evaluation>& evaluation) {
   };
   json["nees_motion"] = nees(&Evaluation::nees_motion);
   json["nees_pose"] = nees(&Evaluation::nees_pose);
-  const auto confidence = [&](int Confidence::*member) {
-    const bool is_known = evaluation && evaluation->confidence;
-    return is_known ? Json((*evaluation->confidence).*member) : Json(nullptr);
-  };
-  json["confident_frames"] = confidence(&Confidence::frames);
-  json["confidently_wrong"] = confidence(&Confidence::wrong);
+  const bool is_confidence_known = evaluation && evaluation->confidence;
+  const Confidence confidence = is_confidence_known ? *evaluation->confidence : Confidence();
+  json["confident_frames"] = is_confidence_known ? Json(confidence.frames) : Json(nullptr);
+  json["confidently_wrong"] = is_confidence_known ? Json(confidence.wrong.size()) : Json(nullptr);
+  json["confidently_wrong_frames"] = confidence.wrong;
   json["end_error_m"] = figure(&Evaluation::end_error_m);
   json["end_error_deg"] = figure(&Evaluation::end_error_deg);
   json["truth_path_m"] = figure(&Evaluation::path_m);

@@ -98,8 +98,8 @@ std::string evaluation_rows(const Evaluation& e) {
   rows += row("RPE", text("%.5f m, %.4f deg a frame", e.rpe_rmse_m, e.rpe_rmse_deg));
   rows += nees_row("NEES motion", e.nees_motion) + nees_row("NEES pose", e.nees_pose);
   if (e.confidence) {
-    rows += row("confidence", text("%d sure frames, %d of them wrong", e.confidence->frames,
-                                   e.confidence->wrong));
+    rows += row("confidence", text("%d sure frames, %zu of them wrong", e.confidence->frames,
+                                   e.confidence->wrong.size()));
   }
   rows += row("end error",
               text("%.4f m, %.3f deg after %.2f m", e.end_error_m, e.end_error_deg, e.path_m));

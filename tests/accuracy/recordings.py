@@ -18,6 +18,7 @@ class Recording:
     scene: str = ""  # as for `darkling render`; empty where it is a recording
     is_long: bool = True  # 5 m and more: there is a drift
     truth_noise: str = ""  # as for `replay --truth-noise`, where the truth is not exact
+    flawed_truth: tuple = ()  # frames over whose motion the truth itself jumps
 
 
 # The seeds are used nowhere else: nothing was tuned on these drives.

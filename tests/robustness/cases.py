@@ -11,7 +11,9 @@ from recordings import Recording
 # The truths of recordings are not exact: see docs/accuracy.md.
 RECORDINGS = (
     Recording("kitti_06", 1226, truth_noise="0.006,0.04"),
-    Recording("euroc_mh01_a", 752, is_long=False, truth_noise="0.015,0"),
+    # Between two of its rows, 5 ms apart, its position jumps by 4.9 mm beside the way; rows before
+    # and after differ by 2.5 mm each.
+    Recording("euroc_mh01_a", 752, is_long=False, truth_noise="0.015,0", flawed_truth=(16,)),
     Recording("mine", 320, "mine,frames=200,width=320,seed=71"),
     Recording("quarry", 320, "quarry,frames=200,width=320,seed=71"),
     Recording("corridor", 320, "corridor,frames=200,width=320,seed=71"),

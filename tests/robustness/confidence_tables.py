@@ -7,6 +7,14 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from measured_page import table
 
 
+def without_flaws(recording, figures):
+    """@return the figures, without the errors that are the truth's."""
+    if figures["confidently_wrong"] is None:
+        return figures
+    wrong = set(figures["confidently_wrong_frames"]) - set(recording.flawed_truth)
+    return figures | {"confidently_wrong": len(wrong)}
+
+
 def judged(figures):
     """Those with a truth: not what was refused at once."""
     return [f for f in figures if f["confidently_wrong"] is not None]

@@ -44,8 +44,10 @@ class Measured:
 
     def __init__(self, program, scope, at_once):
         self.scope = scope
-        self.figures = replay_all(program, self.group_runs() + self.plot_runs() + self.stream_runs()
-                                  + self.drawn_runs(), at_once)
+        figures = replay_all(program, self.group_runs() + self.plot_runs() + self.stream_runs()
+                             + self.drawn_runs(), at_once)
+        self.figures = {run: confidence_tables.without_flaws(run.recording, of)
+                        for run, of in figures.items()}
 
     def run_of(self, recording, descriptor, injections=()):
         return Replay(recording, setting=dict(cases.DESCRIPTORS)[descriptor], injections=injections)

@@ -94,6 +94,12 @@ class ConfidenceTablesTest(unittest.TestCase):
         self.assertEqual(confidence_tables.wrong_percent([refused, figures_of(confidently_wrong=1)]), 1.0)
 
 
+    def test_do_not_count_jumps_of_the_truth(self):
+        figures = figures_of(confidently_wrong=2, confidently_wrong_frames=[16, 40])
+        self.assertEqual(confidence_tables.without_flaws(DRONE, figures)["confidently_wrong"], 1)
+        self.assertEqual(confidence_tables.without_flaws(CAR, figures)["confidently_wrong"], 2)
+
+
 class TablesTest(unittest.TestCase):
     def measured(self, figures):
         """Of every replay the same, but for those that `figures` knows."""

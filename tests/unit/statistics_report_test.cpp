@@ -43,7 +43,7 @@ Evaluation example_evaluation() {
           .rpe_rmse_deg = 0.03,
           .nees_motion = Nees{.count = 8, .mean = 1.25},
           .nees_pose = std::nullopt,
-          .confidence = Confidence{.frames = 6, .wrong = 1}};
+          .confidence = Confidence{.frames = 6, .wrong = {4}}};
 }
 
 TEST(StatisticsJson, HasEveryFixedKey) {
@@ -88,6 +88,7 @@ TEST(StatisticsJson, CarriesTheFiguresOfTheEvaluation) {
   EXPECT_TRUE(json["nees_pose"].is_null());
   EXPECT_EQ(json["confident_frames"], 6);
   EXPECT_EQ(json["confidently_wrong"], 1);
+  EXPECT_EQ(json["confidently_wrong_frames"], Json({4}));
 }
 
 TEST(StatisticsJson, TellsStatesWithTheirReasons) {
