@@ -10,6 +10,7 @@
 #include "app/injected_recording.h"
 #include "app/progress_line.h"
 #include "app/replay_log.h"
+#include "app/service/follow_pair.h"
 #include "app/service/obey_wish.h"
 #include "app/verb.h"
 #include "io/run_report.h"
@@ -119,8 +120,7 @@ Estimate follow(Run& run, const WaitResult& next, std::span<const RecordedWish> 
   run.odometry->finish_refinement();
   for (const RecordedWish& recorded : wishes) obey_wish(*run.odometry, recorded.wish);
   const MonotonicTime started_at = read_monotonic_clock();
-  const Estimate estimate = is_bad ? run.odometry->skip(next.sequence, next.stamp)
-                                   : run.odometry->track(next.lease.frame());
+  const Estimate estimate = follow_pair(*run.odometry, next);
   const Duration wall_time = read_monotonic_clock() - started_at;
   if (run.heap_calls) *run.heap_calls += *count_heap_calls() - *heap_calls_before;
   if (is_bad) {

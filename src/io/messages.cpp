@@ -36,7 +36,11 @@ static_assert(is_same(update_t::REASON_FROZEN, kReasonFrozen));
 static_assert(is_same(update_t::REASON_EYES_DISAGREE, kReasonEyesDisagree));
 static_assert(is_same(update_t::REASON_CALIB_SUSPECT, kReasonCalibSuspect));
 static_assert(is_same(update_t::REASON_MOVING_BODY, kReasonMovingBody));
-static_assert(kReasonCount == 14, "a new reason needs its constant in update_t.lcm");
+static_assert(is_same(update_t::REASON_TORN, kReasonTorn));
+static_assert(is_same(update_t::REASON_UNSYNCED, kReasonUnsynced));
+static_assert(is_same(update_t::REASON_BLUR, kReasonBlur));
+static_assert(is_same(update_t::REASON_STEP_TOO_LARGE, kReasonStepTooLarge));
+static_assert(kReasonCount == 18, "a new reason needs its constant in update_t.lcm");
 
 void write_transform(const Se3& T, double (&translation)[3], double (&rotation)[4]) {
   std::copy_n(T.translation().data(), 3, translation);

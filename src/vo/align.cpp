@@ -202,7 +202,7 @@ void align_level(const KernelTable& kernels, const TemplateLevel& level, const P
 
 Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyframe,
                       const FramePyramid& frame, std::span<const Se3> guesses,
-                      const PointResiduals& scratch) {
+                      const PointResiduals& scratch, int levels) {
   CHECK(!guesses.empty(), "an alignment starts somewhere");
   CHECK(keyframe.levels.size() == frame.size(), "template and frame have the same levels");
   const auto align = [&](int l, Alignment& alignment) {
@@ -212,7 +212,7 @@ Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyfra
     return score_residuals(keyframe.levels[l].points, scratch,
                            make_warp(alignment.T_current_key, frame[l]), frame[l].planes);
   };
-  return align_from_coarse(static_cast<int>(frame.size()), guesses, align, score);
+  return align_from_coarse(std::min(levels, static_cast<int>(frame.size())), guesses, align, score);
 }
 
 }  // namespace darkling

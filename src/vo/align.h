@@ -118,12 +118,13 @@ template <typename Align, typename Score>
 // inverse compositional update in disparity space, one robust weight a point.
 //
 // @param guesses  of T_current_key. All are aligned at the coarsest level; the best goes on.
+// @param levels  it starts from the coarsest of so many, the finest ones.
 // @pre at least one guess; template and frame have the same levels.
 // @return an alignment in every case; the score says what it is worth.
 // Source: Alismail, Browning, "Direct disparity space: robust and real-time visual odometry",
 // 2014; Baker, Matthews, "Lucas-Kanade 20 years on", 2004, for the inverse composition.
 [[nodiscard]] Alignment align_frame(const KernelTable& kernels, const KeyframeTemplate& keyframe,
                                     const FramePyramid& frame, std::span<const Se3> guesses,
-                                    const PointResiduals& scratch);
+                                    const PointResiduals& scratch, int levels = kMaxLevels);
 
 }  // namespace darkling

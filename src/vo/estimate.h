@@ -33,12 +33,17 @@ enum Reason : std::uint32_t {
   kReasonEyesDisagree = 1u << 11,   // the right eye does not see what the left one does
   kReasonCalibSuspect = 1u << 12,   // the eyes agree, but not on the same height
   kReasonMovingBody = 1u << 13,     // a good part of what is seen moves otherwise than the rest
+  kReasonTorn = 1u << 14,           // part of the image is of the frame before, or was just now
+  kReasonUnsynced = 1u << 15,  // no pair: an eye alone, the other one's image too far off in time
+  kReasonBlur = 1u << 16,      // far less sharp than the frames before
+  kReasonStepTooLarge = 1u << 17,  // far from where the motion before would have led
 };
-inline constexpr int kReasonCount = 14;
+inline constexpr int kReasonCount = 18;
 inline constexpr std::array<const char*, kReasonCount> kReasonNames = {
     "low_texture", "low_overlap",   "not_converged", "ill_conditioned", "residual_high",
     "dropped",     "no_depth",      "eyes_swapped",  "too_dark",        "saturated",
-    "frozen",      "eyes_disagree", "calib_suspect", "moving_body"};
+    "frozen",      "eyes_disagree", "calib_suspect", "moving_body",     "torn",
+    "unsynced",    "blur",          "step_too_large"};
 
 // The stages of a frame, in order: what `stage_us` of the statistics is keyed by.
 enum class Stage : std::uint8_t { kRectify, kPyramid, kPlanes, kTrack, kStereo, kSelect, kRefine };

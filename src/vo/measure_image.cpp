@@ -29,9 +29,34 @@ constexpr int kMaxZone = 64;
 constexpr int kDarkLevel = 12;
 constexpr int kBrightLevel = 250;
 
-constexpr std::uint64_t kHashFactor = 0x100000001b3;  // FNV-1a
+constexpr std::uint64_t kHashStart = 0xcbf29ce484222325;  // FNV-1a
+constexpr std::uint64_t kHashFactor = 0x100000001b3;
+
+// Of mean square differences: less than so many times what noise explains says nothing.
+constexpr double kLeastOverNoise = 4.0;
+constexpr int kFar = 4;  // px
 
 using Histogram = std::array<int, kMaxResponse + 1>;
+
+// Sums of squared differences along one axis.
+struct Differences {
+  std::int64_t near = 0;
+  std::int64_t far = 0;
+  int count = 0;
+
+  void add(int here, int beside, int beyond) {
+    near += (beside - here) * (beside - here);
+    far += (beyond - here) * (beyond - here);
+    ++count;
+  }
+};
+
+double sharpness_of(const Differences& differences, double noise) {
+  const double by_noise = 2.0 * noise * noise * differences.count;
+  const auto far = static_cast<double>(differences.far);
+  if (far <= kLeastOverNoise * by_noise || differences.far == 0) return 0.0;
+  return std::max(0.0, static_cast<double>(differences.near) - by_noise) / (far - by_noise);
+}
 
 int respond(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below) {
   const int corners = above[-1] + above[1] + below[-1] + below[1];
@@ -61,11 +86,18 @@ ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey) {
   int count = 0;
   int dark = 0;
   int bright = 0;
-  std::uint64_t hash = 0;
+  std::array<ImageBand, kBandCount> bands = {};
+  std::array<int, kBandCount> balance = {};  // pixels with a response less those without
+  for (ImageBand& band : bands) band.hash = kHashStart;
+  Differences along_x;
+  Differences along_y;
   for (int y = 1; y + 1 < grey.height; y += kStep) {
+    const auto b = static_cast<std::size_t>(y * kBandCount / grey.height);
+    std::uint64_t hash = bands[b].hash;
     const std::uint8_t* above = grey.row(y - 1);
     const std::uint8_t* here = grey.row(y);
     const std::uint8_t* below = grey.row(y + 1);
+    const std::uint8_t* far_below = grey.row(std::min(y + kFar, grey.height - 1));
     for (int x = 1; x + 1 < grey.width; x += kStep) {
       const int response = std::abs(respond(above + x, here + x, below + x));
       ++histogram[static_cast<std::size_t>(std::min(response, kMaxResponse))];
@@ -73,13 +105,32 @@ ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey) {
       dark += here[x] < kDarkLevel ? 1 : 0;
       bright += here[x] >= kBrightLevel ? 1 : 0;
       hash = (hash ^ here[x]) * kHashFactor;
+      balance[b] += response != 0 ? 1 : -1;
+      along_x.add(here[x], here[x + 1], here[std::min(x + kFar, grey.width - 1)]);
+      along_y.add(here[x], below[x], far_below[x]);
     }
+    bands[b].hash = hash;
   }
+  for (std::size_t b = 0; b < bands.size(); ++b) bands[b].is_plain = balance[b] <= 0;
   if (count == 0) return {};
-  return {.noise = noise_of(histogram, count),
+  const double noise = noise_of(histogram, count);
+  return {.noise = noise,
           .dark_share = static_cast<double>(dark) / count,
           .bright_share = static_cast<double>(bright) / count,
-          .hash = hash};
+          .sharpness = {sharpness_of(along_x, noise), sharpness_of(along_y, noise)},
+          .bands = bands};
+}
+
+Repetition repetition_of(const ImageMeasure& image, const ImageMeasure& other) {
+  int repeated = 0;
+  bool is_partial = false;
+  for (std::size_t b = 0; b < image.bands.size(); ++b) {
+    if (image.bands[b].hash != other.bands[b].hash) continue;
+    ++repeated;
+    is_partial |= !image.bands[b].is_plain;
+  }
+  const bool is_whole = repeated == kBandCount;
+  return {.is_whole = is_whole, .is_partial = is_partial && !is_whole};
 }
 
 int dead_zone_of(double noise) {

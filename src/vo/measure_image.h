@@ -1,19 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/image_view.h"
 
 namespace darkling {
 
+// Of the image, from top to bottom: what arrives late of an image are whole rows.
+inline constexpr int kBandCount = 8;
+
+struct ImageBand {
+  std::uint64_t hash = 0;  // of the pixels looked at: the same band, the same hash
+  bool is_plain = true;    // at most half of it has any texture or noise: it may repeat by chance
+};
+
 // What an image says about itself, from every third pixel of every third row.
 struct ImageMeasure {
   double noise = 0.0;         // standard deviation, grey levels
   double dark_share = 0.0;    // of the pixels, 0…1: next to black
   double bright_share = 0.0;  // clipped, or nearly
-  std::uint64_t hash = 0;     // of the pixels looked at: the same image, the same hash
+  // Along x and along y: mean square of the differences of neighbours over that of pixels four
+  // apart, both without what noise explains. A sixteenth is a slope; a quarter, a sharp step; 1,
+  // what changes from pixel to pixel. 0: not known, as noise explains most.
+  std::array<double, 2> sharpness = {};
+  std::array<ImageBand, kBandCount> bands = {};
 };
+
+// How much of an image is that of another one.
+struct Repetition {
+  bool is_whole = false;
+  bool is_partial = false;  // a band that is not plain repeats, others do not
+};
+[[nodiscard]] Repetition repetition_of(const ImageMeasure& image, const ImageMeasure& other);
 
 // Noise is what is left of the image where nothing else is. A mask that any plane of brightness and
 // any straight edge along the axes leaves at zero,

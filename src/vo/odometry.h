@@ -34,9 +34,10 @@ class Odometry {
   // @pre the frame's images have the sizes of the rig's cameras.
   [[nodiscard]] Estimate track(const StereoFrame& frame);
 
-  // Says that the pair at `sequence` is missing: the pose is predicted, status kLost with
-  // kReasonDropped. The next track() takes the gap into account.
-  [[nodiscard]] Estimate skip(std::int64_t sequence, FrameTime stamp);
+  // Says that the pair at `sequence` is missing: the pose is predicted, status kLost. The next
+  // track() takes the gap into account.
+  // @param reason  kReasonDropped or kReasonUnsynced.
+  [[nodiscard]] Estimate skip(std::int64_t sequence, FrameTime stamp, Reason reason);
 
   // Adds to the guesses that the next track() starts from.
   // @param T_previous_body  motion of Body since the last frame that was measured.

@@ -20,9 +20,8 @@ void Odometry::reset() {
   for (TemplateLevel& level : s.keyframe.levels) level.points.count = 0;
   s.window.count = 0;
   s.ring.count = 0;
-  for (Se3* T : {&s.T_world_key, &s.T_world_previous, &s.T_before_previous, &s.T_world_reported}) {
-    *T = Se3();
-  }
+  for (Se3* T : {&s.T_world_key, &s.T_world_previous, &s.T_world_reported}) *T = Se3();
+  s.T_before_previous.reset();
   s.unpublished.setZero();
   s.motion_gap = 1;
   s.lost_in_a_row = 0;
@@ -32,7 +31,10 @@ void Odometry::reset() {
   s.do_eyes_disagree = false;
   s.misplaced_looks = 0;
   s.frames_to_watch = 0;
-  s.previous_hash = 0;
+  s.frames_of_body = 0;
+  s.previous_measure = {};
+  s.frames_to_doubt = 0;
+  s.usual_sharpness = {};
   s.is_reported_measured = false;
   s.covariance.reset();
   ++s.reset_counter;

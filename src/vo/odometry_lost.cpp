@@ -84,7 +84,7 @@ bool Odometry::State::begin_track(const StereoFrame& frame, Estimate& estimate) 
 void Odometry::State::lose(const StereoFrame& frame, Estimate& estimate) {
   estimate.status = TrackStatus::kLost;
   estimate.quality = -1;
-  T_before_previous = Se3();
+  T_before_previous.reset();
   const bool is_found = find_again(frame, estimate);
   if (is_found || begin_track(frame, estimate)) {
     ++reset_counter;

@@ -53,10 +53,11 @@ struct Odometry::State {
   Duration refinement_time = {};                 // … what it took
   std::int64_t refinement_overruns = 0;          // the next frame came first
 
-  Se3 T_world_key;        // World here: the first rectified left camera
-  Se3 T_world_previous;   // of the last frame that was measured
-  Se3 T_before_previous;  // the motion that led to it
-  Se3 T_world_reported;   // of the last Estimate, measured or not, as it is thought of now
+  Se3 T_world_key;       // World here: the first rectified left camera
+  Se3 T_world_previous;  // of the last frame that was measured
+  // The motion that led to it; none at a start and after a frame that was lost.
+  std::optional<Se3> T_before_previous;
+  Se3 T_world_reported;  // of the last Estimate, measured or not, as it is thought of now
   // What refinement moved the present frame back by and the published pose has not followed yet.
   Vector6 unpublished = Vector6::Zero();
   std::int64_t previous_sequence = 0;
@@ -65,12 +66,15 @@ struct Odometry::State {
   std::optional<Se3> hinted;  // T_previous_left, for the next frame only
   bool is_reseed_wanted = false;
   int reset_counter = 0;
-  int track = 0;                  // in the ring; what reset_counter was when it began
-  int frames_since_look = 0;      // at the right eye
-  bool do_eyes_disagree = false;  // as far as the last look could tell
-  int misplaced_looks = 0;        // in a row
-  std::uint64_t previous_hash = 0;
-  int frames_to_watch = 0;  // for a body that passes before the cameras
+  int track = 0;                               // in the ring; what reset_counter was when it began
+  int frames_since_look = 0;                   // at the right eye
+  bool do_eyes_disagree = false;               // as far as the last look could tell
+  int misplaced_looks = 0;                     // in a row
+  ImageMeasure previous_measure;               // of the left eye
+  int frames_to_doubt = 0;                     // after an image that was torn
+  std::array<double, 2> usual_sharpness = {};  // along x and y; 0: not known yet
+  int frames_to_watch = 0;                     // for a body that passes before the cameras, and …
+  int frames_of_body = 0;  // … for which one that was told from the world is taken to be there
   PoseCovariance covariance;
   bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to
 
@@ -95,6 +99,8 @@ struct Odometry::State {
   ImageMeasure prepare_right(const StereoFrame& frame, Estimate& estimate);
   void watch_for_bodies(std::span<const Se3> guesses, Alignment& alignment, Estimate& estimate);
   void note_repeats(const ImageMeasure& measure, Estimate& estimate);
+  void note_blur(const ImageMeasure& measure, Estimate& estimate);
+  void note_surprise(const Se3& T_world_left, Estimate& estimate) const;
   void compare_eyes(const Se3& T_left_key);
   void look_at_right_eye(const StereoFrame& frame, const Se3& T_left_key, Estimate& estimate);
   void report_eyes(Estimate& estimate) const;

@@ -202,15 +202,16 @@ MotionCount separate_motions(const MotionSearch& search, Alignment& alignment) {
   const Alignment first = alignment;
   const auto [second, by] = find_second(search, first);
   const int iterations = first.iterations + second.iterations;
+  const bool is_alike =
+      !search.is_expected && difference_px(first, second, by.second) < kMinDifferencePx;
   const bool is_one = !is_supported(by.second, by.visible) ||
-                      kMaxImbalance * by.second.count < by.first.count ||
-                      difference_px(first, second, by.second) < kMinDifferencePx;
-  const MotionCount found =
-      is_one || !is_supported(by.first, by.visible) ? MotionCount::kOne : MotionCount::kTwo;
-  if (is_one || second.score.cost > first.score.cost + kMaxCostAbove) {
+                      kMaxImbalance * by.second.count < by.first.count || is_alike;
+  const bool is_poor = !search.is_expected && second.score.cost > first.score.cost + kMaxCostAbove;
+  if (is_one || is_poor) {
     sample(search, 0, alignment);
     alignment.iterations = iterations;
-    return found;
+    const bool is_certain = is_one || !is_supported(by.first, by.visible);
+    return is_certain ? MotionCount::kOne : MotionCount::kUncertain;
   }
   const bool is_second_world = is_world(by.second, by.first);
   alignment = is_second_world ? second : first;
@@ -222,7 +223,11 @@ MotionCount separate_motions(const MotionSearch& search, Alignment& alignment) {
               search.residuals, alignment);
   alignment.score = score(search, 0, alignment);
   leave_out(body, alignment.score.visible_count, search.residuals);
-  return found;
+  const AlignmentScore of_world =
+      score_residuals(search.keyframe.levels[0].points, search.residuals,
+                      warp_at(search, 0, alignment), search.frame[0].planes);
+  alignment.score.distance = 0.5 * (alignment.score.distance + of_world.distance);
+  return MotionCount::kTwo;
 }
 
 }  // namespace darkling

@@ -23,8 +23,9 @@ struct MotionScratch {
                                       const PointResiduals& residuals);
 
 enum class MotionCount : std::uint8_t {
-  kOne,  // the points have one motion in common, as far as can be told
-  kTwo,  // a good part of them moves otherwise than the world: something passes before the cameras
+  kOne,        // the points have one motion in common, as far as can be told
+  kUncertain,  // a part of them may move otherwise; all are taken to move as most do
+  kTwo,        // a part of them moves otherwise than the world: something passes before the cameras
 };
 
 // What is aligned to what, from where, and the memory for it.
@@ -35,6 +36,8 @@ struct MotionSearch {
   std::span<const Se3> guesses;     // of T_current_key, as for align_frame()
   const PointResiduals& residuals;  // as for align_frame()
   MotionScratch scratch;
+  // There were two just now: then they need not differ by as much, nor match as well.
+  bool is_expected = false;
 };
 
 // Looks for a second motion among the template's points, and lets `alignment` be of the one that is
@@ -48,7 +51,9 @@ struct MotionSearch {
 // the one that lies behind counting for more: what covers something is before it.
 //
 // @param alignment  as align_frame() returned it. Afterwards its score still is of all points, but
-//                   `search.residuals` count those of the other motion as not seen.
+//                   `search.residuals` count those of the other motion as not seen, and so does
+//                   half of the distance: they are no reason for a keyframe in every frame, and
+//                   what they cover is one for a keyframe soon.
 // Cost: that of three alignments.
 [[nodiscard]] MotionCount separate_motions(const MotionSearch& search, Alignment& alignment);
 

@@ -45,8 +45,8 @@ class RoughRide {
     TrackStatus before = TrackStatus::kUnknown;
     for (int i = 0; i < kFrames; ++i) {
       const KeptFrame* frame = at(i);
-      const Estimate estimate =
-          frame == nullptr ? odometry.skip(i, FrameTime()) : odometry.track(frame->at(i));
+      const Estimate estimate = frame == nullptr ? odometry.skip(i, FrameTime(), kReasonDropped)
+                                                 : odometry.track(frame->at(i));
       const bool is_valid = estimate.status == TrackStatus::kValid;
       const bool is_reset = estimate.reset_counter > counts.resets;
       ++counts.frames;

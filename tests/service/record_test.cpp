@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/service/follow_pair.h"
 #include "app/service/obey_wish.h"
 #include "app/service/wish_messages.h"
 #include "drivers/framelog/frame_log.h"
@@ -62,8 +63,7 @@ std::map<std::int64_t, Estimate> replay(const std::string& path) {
     for (; wish != wishes.end() && wish->sequence == sequence; ++wish) {
       obey_wish(**odometry, wish->wish);
     }
-    estimates.emplace(sequence, is_frame ? (*odometry)->track(next.lease.frame())
-                                         : (*odometry)->skip(sequence, next.stamp));
+    estimates.emplace(sequence, follow_pair(**odometry, next));
   }
   return estimates;
 }

@@ -38,7 +38,7 @@ TEST(MeasureImage, FindsNextToNoneInASlope) {
   EXPECT_LT(measure_image(image.view()).noise, 0.5);
 }
 
-TEST(MeasureImage, KnowsBlackAndWhiteAndOneImageFromAnother) {
+TEST(MeasureImage, KnowsBlackAndWhite) {
   GuardedImage<std::uint8_t> image({.width = 64, .height = 48});
   test::fill_image(image.view(), test::Fill::kConstant, 3);
   const ImageMeasure black = measure_image(image.view());
@@ -48,8 +48,50 @@ TEST(MeasureImage, KnowsBlackAndWhiteAndOneImageFromAnother) {
   const ImageMeasure white = measure_image(image.view());
   EXPECT_EQ(white.dark_share, 0.0);
   EXPECT_EQ(white.bright_share, 1.0);
-  EXPECT_NE(white.hash, black.hash);
-  EXPECT_EQ(white.hash, measure_image(image.view()).hash);
+}
+
+TEST(MeasureImage, TellsSharpEdgesFromSmearedOnesAlongEachAxis) {
+  GuardedImage<std::uint8_t> image({.width = 128, .height = 96});
+  // Stripes of 16 px, along x with an edge that is `width` px wide, along y with sharp ones.
+  const auto sharpness_of = [&image](int width) {
+    for (int y = 0; y < 96; ++y) {
+      for (int x = 0; x < 128; ++x) {
+        const int along_x = std::min(x % 16, width) * 60 / width;
+        image.view().at(x, y) = static_cast<std::uint8_t>(40 + along_x + (y / 16 % 2) * 60);
+      }
+    }
+    return measure_image(image.view()).sharpness;
+  };
+  const auto sharp = sharpness_of(1);
+  const auto smeared = sharpness_of(8);
+  EXPECT_GT(sharp[0], 2.0 * smeared[0]);
+  EXPECT_NEAR(sharp[1], smeared[1], 0.1 * sharp[1]);
+}
+
+TEST(MeasureImage, KnowsNoSharpnessOfNoiseAndOfNothing) {
+  GuardedImage<std::uint8_t> image({.width = 128, .height = 96});
+  test::fill_image(image.view(), test::Fill::kConstant, 90);
+  EXPECT_EQ(measure_image(image.view()).sharpness[0], 0.0);
+  test::fill_image(image.view(), test::Fill::kUniform, 1);
+  EXPECT_EQ(measure_image(image.view()).sharpness[0], 0.0);
+}
+
+TEST(Repetition, IsOfAllOrOfRowsAndNotOfWhatIsPlain) {
+  GuardedImage<std::uint8_t> image({.width = 128, .height = 96});
+  test::fill_image(image.view(), test::Fill::kUniform, 1);
+  const ImageMeasure first = measure_image(image.view());
+  EXPECT_TRUE(repetition_of(measure_image(image.view()), first).is_whole);
+  EXPECT_FALSE(repetition_of(measure_image(image.view()), first).is_partial);
+
+  for (int y = 0; y < 40; ++y) image.view().row(y)[64] ^= 1;
+  const Repetition lower = repetition_of(measure_image(image.view()), first);
+  EXPECT_TRUE(lower.is_partial);
+  EXPECT_FALSE(lower.is_whole);
+
+  for (int y = 40; y < 96; ++y) std::fill_n(image.view().row(y), 128, 255);
+  const ImageMeasure with_sky = measure_image(image.view());
+  for (int y = 0; y < 40; ++y) image.view().row(y)[64] ^= 1;
+  EXPECT_FALSE(repetition_of(measure_image(image.view()), with_sky).is_partial);
 }
 
 TEST(MeasureImage, TakesTheSmallestImagesForFreeOfNoise) {

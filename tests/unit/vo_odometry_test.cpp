@@ -206,7 +206,7 @@ TEST(Odometry, PredictsAcrossAMissingPairAndFindsItsWayAfterwards) {
   const SyntheticRun& run = test::synthetic_run(kCorridor);
   const auto odometry = make_odometry(run);
   for (int i = 0; i < 6; ++i) (void)odometry->track(run.frames[static_cast<std::size_t>(i)].at(i));
-  const Estimate skipped = odometry->skip(6, run.frames[6].at(6).stamp);
+  const Estimate skipped = odometry->skip(6, run.frames[6].at(6).stamp, kReasonDropped);
   EXPECT_EQ(skipped.sequence, 6);
   EXPECT_EQ(skipped.status, TrackStatus::kLost);
   EXPECT_EQ(skipped.reasons, kReasonDropped);
@@ -224,7 +224,7 @@ TEST(Odometry, PredictsAcrossAMissingPairAndFindsItsWayAfterwards) {
 TEST(Odometry, HoldsTheIdentityWhenPairsAreMissingBeforeTheFirst) {
   const SyntheticRun& run = test::synthetic_run(kCorridor);
   const auto odometry = make_odometry(run);
-  const Estimate skipped = odometry->skip(0, FrameTime());
+  const Estimate skipped = odometry->skip(0, FrameTime(), kReasonDropped);
   EXPECT_EQ(skipped.T_world_left.matrix(), Eigen::Matrix4d::Identity());
   EXPECT_EQ(odometry->track(run.frames[1].at(1)).status, TrackStatus::kValid);
 }

@@ -53,15 +53,17 @@ class SeparateMotions : public ::testing::Test {
   }
 
   // Aligns as tracking does, and then looks for two motions.
-  MotionCount separate(const Se3& T_world_camera, const Se3& T_board_camera) {
+  MotionCount separate(const Se3& T_world_camera, const Se3& T_board_camera,
+                       bool is_expected = false) {
     paint_both(T_world_camera, T_board_camera, eye_.grey());
     eye_.prepare(kernels_);
     const Se3 rest;
     const std::span<const Se3> guesses(&rest, 1);
     first_ = align_frame(kernels_, key_.keyframe(), eye_.pyramid(), guesses, key_.residuals());
     found_ = first_;
-    return separate_motions(
-        {kernels_, key_.keyframe(), eye_.pyramid(), guesses, key_.residuals(), scratch_}, found_);
+    return separate_motions({kernels_, key_.keyframe(), eye_.pyramid(), guesses, key_.residuals(),
+                             scratch_, is_expected},
+                            found_);
   }
   [[nodiscard]] static double error_m(const Alignment& found, const Se3& T_world_camera) {
     return minus(found.T_current_key, T_world_camera.inverse()).head<3>().norm();
@@ -93,6 +95,16 @@ TEST_F(SeparateMotions, FollowsTheWorldBehindABoardThatPasses) {
 TEST_F(SeparateMotions, StandsStillBehindABoardThatPasses) {
   (void)separate(Se3(), shift(0.1, 0.0, 0.0));
   EXPECT_LT(error_m(found_, Se3()), 0.005);
+}
+
+// Between two frames in which it was told from the world a board may move nearly as that does.
+TEST_F(SeparateMotions, TellsAnExpectedBoardByLess) {
+  const Se3 T_world_camera = shift(0.01, 0.0, 0.06);
+  const Se3 T_board_camera = shift(0.0, 0.01, 0.06);
+  EXPECT_EQ(separate(T_world_camera, T_board_camera), MotionCount::kOne);
+  EXPECT_GT(error_m(found_, T_world_camera), 0.015) << "this board misleads nobody";
+  EXPECT_EQ(separate(T_world_camera, T_board_camera, true), MotionCount::kTwo);
+  EXPECT_LT(error_m(found_, T_world_camera), 0.005);
 }
 
 TEST_F(SeparateMotions, LeavesWhatHasOneMotionAsItIs) {

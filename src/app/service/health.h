@@ -27,11 +27,11 @@ inline constexpr int kServiceStateCount = 7;
 
 // Reasons of the service itself, beside those of an Estimate.
 enum ServiceReason : std::uint32_t {
-  kReasonNoFrames = 1u << 16,      // the camera is not open, or delivers nothing
-  kReasonLate = 1u << 17,          // pairs were passed over: the processor is too busy
-  kReasonClockStepped = 1u << 18,  // the wall clock; stamps by CLOCK_MONOTONIC go on as they were
-  kReasonNotPublished = 1u << 19,  // no network, or it refuses
-  kReasonRecordingFailed = 1u << 20,  // stopped by an error, or pairs were left out
+  kReasonNoFrames = 1u << 24,      // the camera is not open, or delivers nothing
+  kReasonLate = 1u << 25,          // pairs were passed over: the processor is too busy
+  kReasonClockStepped = 1u << 26,  // the wall clock; stamps by CLOCK_MONOTONIC go on as they were
+  kReasonNotPublished = 1u << 27,  // no network, or it refuses
+  kReasonRecordingFailed = 1u << 28,  // stopped by an error, or pairs were left out
 };
 
 // "residual_high", "late"; a bit without a name is its number: "0x800000".

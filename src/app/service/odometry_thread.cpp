@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "app/service/follow_pair.h"
 #include "app/service/journal.h"
 #include "app/service/obey_wish.h"
 #include "platform/heap_probe.h"
@@ -75,8 +76,7 @@ void OdometryThread::track(const WaitResult& pair) {
   TrackedFrame tracked;
   tracked.is_bad = pair.status == WaitStatus::kBadFrame;
   if (tracked.is_bad) links_.status.pairs_bad.add();
-  tracked.estimate = tracked.is_bad ? links_.odometry.skip(pair.sequence, pair.stamp)
-                                    : links_.odometry.track(pair.lease.frame());
+  tracked.estimate = follow_pair(links_.odometry, pair);
   const Estimate estimate = tracked.estimate;
   if (!links_.estimates.try_push(std::move(tracked))) links_.status.estimates_refused.add();
   links_.output.notify();
