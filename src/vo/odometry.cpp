@@ -176,8 +176,8 @@ Estimate Odometry::track(const StereoFrame& frame) {
   estimate.status = seen.status;
   estimate.reasons = seen.reasons;
   s.note_repeats(measure, estimate);
-  s.note_blur(measure, estimate);
   if (estimate.status == TrackStatus::kLost) return s.pass_over(estimate), estimate;
+  s.note_blur(measure, estimate);
   if (s.keyframe.is_empty()) return s.start(frame, estimate), estimate;
 
   const std::array<Se3, 3> guesses = {

@@ -85,6 +85,10 @@ void Odometry::State::lose(const StereoFrame& frame, Estimate& estimate) {
   estimate.status = TrackStatus::kLost;
   estimate.quality = -1;
   T_before_previous.reset();
+  // It may be another place, and what seemed to move there may not be a body.
+  usual_sharpness = {};
+  frames_to_watch = 0;
+  frames_of_body = 0;
   const bool is_found = find_again(frame, estimate);
   if (is_found || begin_track(frame, estimate)) {
     ++reset_counter;

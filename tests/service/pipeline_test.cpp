@@ -111,7 +111,7 @@ TEST_F(EachPipeline, PublishesLostForPairsThatCannotBeUsed) {
   const update_t update = listener_.heard().updates.back();
   EXPECT_EQ(update.status, update_t::STATUS_LOST);
   EXPECT_EQ(update.quality, update_t::QUALITY_FAILED);
-  EXPECT_EQ(update.reasons, update_t::REASON_DROPPED);
+  EXPECT_EQ(update.reasons, update_t::REASON_UNSYNCED);
   EXPECT_EQ(update.covariance[0], update_t::UNKNOWN_VARIANCE);
   source_->has_bad_frames = false;
   EXPECT_TRUE(reaches(status_t::STATE_TRACKING));

@@ -54,7 +54,8 @@ TEST(TopJson, HasEveryMemberOfEachMessageByItsName) {
 TEST(TopJson, NamesStateAndReasons) {
   status_t status = {};
   status.state = status_t::STATE_DEGRADED;
-  status.reasons = update_t::REASON_NO_DEPTH | 0x20000;
+  status.reasons = update_t::REASON_NO_DEPTH;
+  status.reasons |= status_t::REASON_LATE;
   status.is_recording = 1;
   const Json json = Json::parse(format_heard_json(heard_of(status)));
   EXPECT_EQ(json["state"], 3);

@@ -121,7 +121,8 @@ TEST(TopLayout, CutsNoFigureOffBesideTheMap) {
 TEST(TopLayout, NamesStatesAndReasonsAndThoseItDoesNotKnow) {
   status_t status = good_status();
   status.state = status_t::STATE_LOST;
-  status.reasons = update_t::REASON_LOW_TEXTURE | 0x20000 | 0x40000000;
+  status.reasons = update_t::REASON_LOW_TEXTURE | 0x40000000;
+  status.reasons |= status_t::REASON_LATE;
   std::string text = plain_text(lay_out(heard_of(status, good_pose()), view_after(0.0)));
   EXPECT_THAT(text, AllOf(HasSubstr(" LOST "), HasSubstr("low_texture, late, 0x40000000")));
   status.state = 99;

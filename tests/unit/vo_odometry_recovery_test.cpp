@@ -65,7 +65,7 @@ TEST_F(Recovery, ComesBackToAPlaceFromBeforeTheDark) {
   EXPECT_EQ(found.reset_counter, 1);
   EXPECT_LT(error_m(found, 3), 0.005);
   const Estimate next = go_to(4);
-  EXPECT_EQ(next.status, TrackStatus::kValid);
+  EXPECT_EQ(next.status, TrackStatus::kValid) << next.reasons;
   EXPECT_TRUE(is_known(next.cov_previous_body));
   EXPECT_LT(error_m(next, 4), 0.005);
   EXPECT_EQ(next.reset_counter, 1);
@@ -94,7 +94,7 @@ TEST_F(Recovery, JoinsTheOldTrackOnTheWayBack) {
   go_dark(12);
   drive(55, 58);  // out of sight of the ring: a new track
   Estimate estimate = go_to(58);
-  EXPECT_EQ(estimate.status, TrackStatus::kValid);
+  EXPECT_EQ(estimate.status, TrackStatus::kValid) << estimate.reasons;
   EXPECT_EQ(estimate.reset_counter, 1);
   EXPECT_GT(error_m(estimate, 58), 0.5) << "it does not know where it is";
   for (int i = 57; i >= 10; --i) {
