@@ -34,7 +34,8 @@ constexpr std::uint64_t kHashFactor = 0x100000001b3;
 
 // Of mean square differences: less than so many times what noise explains says nothing.
 constexpr double kLeastOverNoise = 4.0;
-constexpr int kFar = 4;  // px
+constexpr int kFar = 4;        // px
+constexpr int kSharpStep = 6;  // px, from row to row
 
 using Histogram = std::array<int, kMaxResponse + 1>;
 
@@ -42,17 +43,22 @@ using Histogram = std::array<int, kMaxResponse + 1>;
 struct Differences {
   std::int64_t near = 0;
   std::int64_t far = 0;
-  int count = 0;
-
-  void add(int here, int beside, int beyond) {
-    near += (beside - here) * (beside - here);
-    far += (beyond - here) * (beyond - here);
-    ++count;
-  }
 };
 
-double sharpness_of(const Differences& differences, double noise) {
-  const double by_noise = 2.0 * noise * noise * differences.count;
+// Of `count` pixels and those beside and beyond.
+void add_differences(const std::uint8_t* here, const std::uint8_t* beside,
+                     const std::uint8_t* beyond, int count, Differences& sums) {
+  int near = 0;
+  int far = 0;
+  for (int i = 0; i < count; ++i) {
+    near += (beside[i] - here[i]) * (beside[i] - here[i]);
+    far += (beyond[i] - here[i]) * (beyond[i] - here[i]);
+  }
+  sums.near += near;
+  sums.far += far;
+}
+
+double sharpness_of(const Differences& differences, double by_noise) {
   const auto far = static_cast<double>(differences.far);
   if (far <= kLeastOverNoise * by_noise || differences.far == 0) return 0.0;
   return std::max(0.0, static_cast<double>(differences.near) - by_noise) / (far - by_noise);
@@ -62,6 +68,21 @@ int respond(const std::uint8_t* above, const std::uint8_t* here, const std::uint
   const int corners = above[-1] + above[1] + below[-1] + below[1];
   const int sides = above[0] + here[-1] + here[1] + below[0];
   return corners - 2 * sides + 4 * here[0];
+}
+
+std::array<double, 2> measure_sharpness(const ImageView<const std::uint8_t>& grey, double noise) {
+  Differences along_x;
+  Differences along_y;
+  int count = 0;
+  const int width = grey.width - kFar;
+  for (int y = 0; y + kFar < grey.height; y += kSharpStep) {
+    const std::uint8_t* here = grey.row(y);
+    add_differences(here, here + 1, here + kFar, width, along_x);
+    add_differences(here, grey.row(y + 1), grey.row(y + kFar), width, along_y);
+    count += width;
+  }
+  const double by_noise = 2.0 * noise * noise * count;
+  return {sharpness_of(along_x, by_noise), sharpness_of(along_y, by_noise)};
 }
 
 // From responses to the mask.
@@ -89,15 +110,12 @@ ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey) {
   std::array<ImageBand, kBandCount> bands = {};
   std::array<int, kBandCount> balance = {};  // pixels with a response less those without
   for (ImageBand& band : bands) band.hash = kHashStart;
-  Differences along_x;
-  Differences along_y;
   for (int y = 1; y + 1 < grey.height; y += kStep) {
     const auto b = static_cast<std::size_t>(y * kBandCount / grey.height);
     std::uint64_t hash = bands[b].hash;
     const std::uint8_t* above = grey.row(y - 1);
     const std::uint8_t* here = grey.row(y);
     const std::uint8_t* below = grey.row(y + 1);
-    const std::uint8_t* far_below = grey.row(std::min(y + kFar, grey.height - 1));
     for (int x = 1; x + 1 < grey.width; x += kStep) {
       const int response = std::abs(respond(above + x, here + x, below + x));
       ++histogram[static_cast<std::size_t>(std::min(response, kMaxResponse))];
@@ -106,8 +124,6 @@ ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey) {
       bright += here[x] >= kBrightLevel ? 1 : 0;
       hash = (hash ^ here[x]) * kHashFactor;
       balance[b] += response != 0 ? 1 : -1;
-      along_x.add(here[x], here[x + 1], here[std::min(x + kFar, grey.width - 1)]);
-      along_y.add(here[x], below[x], far_below[x]);
     }
     bands[b].hash = hash;
   }
@@ -117,7 +133,7 @@ ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey) {
   return {.noise = noise,
           .dark_share = static_cast<double>(dark) / count,
           .bright_share = static_cast<double>(bright) / count,
-          .sharpness = {sharpness_of(along_x, noise), sharpness_of(along_y, noise)},
+          .sharpness = measure_sharpness(grey, noise),
           .bands = bands};
 }
 
