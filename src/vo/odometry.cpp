@@ -106,9 +106,11 @@ void Odometry::State::watch_for_bodies(std::span<const Se3> guesses, Alignment& 
   const auto count_down = [](bool is_anew, int from, int& frames) {
     frames = is_anew ? from : std::max(frames - 1, 0);
   };
-  count_down(count == MotionCount::kTwo, kFramesOfBody, frames_of_body);
-  count_down(count != MotionCount::kOne, kFramesToWatch, frames_to_watch);
-  if (frames_to_watch <= kFramesToWatch - kFramesOfBody) return;
+  // After a gap much has left the image that the keyframe shows: it may look like a body, once.
+  const bool is_after_gap = estimate.sequence - previous_sequence > 1;
+  count_down(count == MotionCount::kTwo && !is_after_gap, kFramesOfBody, frames_of_body);
+  count_down(count != MotionCount::kOne && !is_after_gap, kFramesToWatch, frames_to_watch);
+  if (count == MotionCount::kOne && frames_to_watch <= kFramesToWatch - kFramesOfBody) return;
   estimate.reasons |= kReasonMovingBody;
   estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
 }
@@ -214,7 +216,8 @@ Estimate Odometry::track(const StereoFrame& frame) {
                       s.influences);
   }
   const Se3 T_world_left = s.T_world_key * alignment.T_current_key.inverse();
-  s.note_surprise(T_world_left, estimate);
+  const bool is_hinted = guess_count == guesses.size();
+  if (!is_hinted) s.note_surprise(T_world_left, estimate);
   s.accept(T_world_left, frame.sequence);
   if (judgement.is_keyframe_due || s.is_reseed_wanted) {
     s.rejoin_track(frame, estimate);
