@@ -29,6 +29,7 @@ void Odometry::reset() {
   s.is_reseed_wanted = false;
   s.frames_since_look = 0;
   s.do_eyes_disagree = false;
+  s.looks_alike = 0;
   s.misplaced_looks = 0;
   s.frames_to_watch = 0;
   s.frames_of_body = 0;

@@ -10,8 +10,11 @@ namespace darkling {
 
 namespace {
 
-// Frames after which the right eye is looked at even if no keyframe is due.
+// Frames after which the right eye is looked at even if no keyframe is due. One that shows
+// something else is looked at in every frame, and believed again when it was right so many times in
+// a row: what it shows may look alike once.
 constexpr int kFramesBetweenLooks = 5;
+constexpr int kLooksBeforeTrust = 3;
 constexpr int kAlignSteps = 3;
 // Cameras that are where the calibration says are met within 0.12 px of height, and of 0.17 at the
 // edge, in good light; within 0.12 and 0.38 at 15 electrons a pixel (310 and 320 px). One that was
@@ -52,8 +55,11 @@ void Odometry::State::compare_eyes(const Se3& T_left_key) {
   const PointWarp warp = make_warp(T_right_key, right[0]);
   const int visible = kernels.sample_residuals(level.points, warp, right[0].planes, residuals);
   if (visible < level.points.count / 4) return;  // too little to say anything
-  do_eyes_disagree = is_unrelated(score_residuals(level.points, residuals, warp, right[0].planes));
-  if (do_eyes_disagree) return;
+  const bool is_alike =
+      !is_unrelated(score_residuals(level.points, residuals, warp, right[0].planes));
+  looks_alike = is_alike ? looks_alike + 1 : 0;
+  do_eyes_disagree = !is_alike || (do_eyes_disagree && looks_alike < kLooksBeforeTrust);
+  if (!is_alike) return;
   const Misplacement off = misplacement_of(kernels, level, right[0], residuals, T_right_key);
   const bool is_off = std::abs(off.height_px) > kMaxHeightPx ||
                       std::abs(off.roll_rad) * 0.5 * rig.width > kMaxRollAtEdgePx;
@@ -63,7 +69,7 @@ void Odometry::State::compare_eyes(const Se3& T_left_key) {
 // Between keyframes.
 void Odometry::State::look_at_right_eye(const StereoFrame& frame, const Se3& T_left_key,
                                         Estimate& estimate) {
-  if (++frames_since_look < kFramesBetweenLooks) return;
+  if (++frames_since_look < kFramesBetweenLooks && !do_eyes_disagree) return;
   prepare_right(frame, estimate);
   compare_eyes(T_left_key);
 }

@@ -68,7 +68,8 @@ struct Odometry::State {
   int reset_counter = 0;
   int track = 0;                               // in the ring; what reset_counter was when it began
   int frames_since_look = 0;                   // at the right eye
-  bool do_eyes_disagree = false;               // as far as the last look could tell
+  bool do_eyes_disagree = false;               // as far as the last looks could tell
+  int looks_alike = 0;                         // in a row
   int misplaced_looks = 0;                     // in a row
   ImageMeasure previous_measure;               // of the left eye
   int frames_to_doubt = 0;                     // after an image that was torn
