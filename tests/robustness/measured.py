@@ -35,7 +35,7 @@ class Scope:
     """What is asked in one go."""
     at_hand: tuple
     descriptors: tuple = cases.DESCRIPTORS
-    seeds: int = 40
+    seeds: int = 500
     has_plots: bool = True
 
 

@@ -23,7 +23,7 @@ def parse(words):
     parser.add_argument("--quick", action="store_true",
                         help="two recordings, bit-planes only, no plots, into build/robustness")
     parser.add_argument("--seeds", type=int, metavar="N",
-                        help="drawn runs of which confident errors are counted (default 40, quick 6)")
+                        help="drawn runs of which confident errors are counted (default 500, quick 6)")
     parser.add_argument("--at-once", type=int, default=2, metavar="N", help="processes (default 2)")
     parser.add_argument("--page", type=pathlib.Path, help="default: docs/robustness.md")
     return parser.parse_args(words)
@@ -46,7 +46,7 @@ def measure(words):
             page = pathlib.Path(shutil.copy(page, quick))
     scope = Scope(at_hand=tuple(recordings.prepare(asked.program, wanted)),
                   descriptors=cases.DESCRIPTORS[:1] if asked.quick else cases.DESCRIPTORS,
-                  seeds=asked.seeds if asked.seeds is not None else 6 if asked.quick else 40,
+                  seeds=asked.seeds if asked.seeds is not None else 6 if asked.quick else 500,
                   has_plots=not asked.quick)
     measured = Measured(asked.program, scope, asked.at_once)
     fill_page(page, measured.write)
