@@ -34,8 +34,7 @@ constexpr std::uint64_t kHashFactor = 0x100000001b3;
 
 // Of mean square differences: less than so many times what noise explains says nothing.
 constexpr double kLeastOverNoise = 4.0;
-constexpr int kFar = 4;        // px
-constexpr int kSharpStep = 6;  // px, from row to row
+constexpr int kFar = 4;  // px
 
 using Histogram = std::array<int, kMaxResponse + 1>;
 
@@ -68,21 +67,6 @@ int respond(const std::uint8_t* above, const std::uint8_t* here, const std::uint
   const int corners = above[-1] + above[1] + below[-1] + below[1];
   const int sides = above[0] + here[-1] + here[1] + below[0];
   return corners - 2 * sides + 4 * here[0];
-}
-
-std::array<double, 2> measure_sharpness(const ImageView<const std::uint8_t>& grey, double noise) {
-  Differences along_x;
-  Differences along_y;
-  int count = 0;
-  const int width = grey.width - kFar;
-  for (int y = 0; y + kFar < grey.height; y += kSharpStep) {
-    const std::uint8_t* here = grey.row(y);
-    add_differences(here, here + 1, here + kFar, width, along_x);
-    add_differences(here, grey.row(y + 1), grey.row(y + kFar), width, along_y);
-    count += width;
-  }
-  const double by_noise = 2.0 * noise * noise * count;
-  return {sharpness_of(along_x, by_noise), sharpness_of(along_y, by_noise)};
 }
 
 // From responses to the mask.
@@ -129,12 +113,24 @@ ImageMeasure measure_image(const ImageView<const std::uint8_t>& grey) {
   }
   for (std::size_t b = 0; b < bands.size(); ++b) bands[b].is_plain = balance[b] <= 0;
   if (count == 0) return {};
-  const double noise = noise_of(histogram, count);
-  return {.noise = noise,
+  return {.noise = noise_of(histogram, count),
           .dark_share = static_cast<double>(dark) / count,
           .bright_share = static_cast<double>(bright) / count,
-          .sharpness = measure_sharpness(grey, noise),
           .bands = bands};
+}
+
+Sharpness measure_sharpness(const ImageView<const std::uint8_t>& grey, double noise) {
+  Differences along_x;
+  Differences along_y;
+  const int width = grey.width - kFar;
+  const int height = grey.height - kFar;
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* here = grey.row(y);
+    add_differences(here, here + 1, here + kFar, width, along_x);
+    add_differences(here, grey.row(y + 1), grey.row(y + kFar), width, along_y);
+  }
+  const double by_noise = 2.0 * noise * noise * width * height;
+  return {sharpness_of(along_x, by_noise), sharpness_of(along_y, by_noise)};
 }
 
 Repetition repetition_of(const ImageMeasure& image, const ImageMeasure& other) {

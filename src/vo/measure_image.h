@@ -21,12 +21,17 @@ struct ImageMeasure {
   double noise = 0.0;         // standard deviation, grey levels
   double dark_share = 0.0;    // of the pixels, 0…1: next to black
   double bright_share = 0.0;  // clipped, or nearly
-  // Along x and along y: mean square of the differences of neighbours over that of pixels four
-  // apart, both without what noise explains. A sixteenth is a slope; a quarter, a sharp step; 1,
-  // what changes from pixel to pixel. 0: not known, as noise explains most.
-  std::array<double, 2> sharpness = {};
   std::array<ImageBand, kBandCount> bands = {};
 };
+
+// Along x and along y: mean square of the differences of neighbours over that of pixels four apart,
+// both without what noise explains. A sixteenth is a slope; a quarter, a sharp step; 1, what
+// changes from pixel to pixel. 0: not known, as noise explains most.
+using Sharpness = std::array<double, 2>;
+
+// @param noise  of the image: standard deviation, grey levels.
+// @pre at least 5×5.
+[[nodiscard]] Sharpness measure_sharpness(const ImageView<const std::uint8_t>& grey, double noise);
 
 // How much of an image is that of another one.
 struct Repetition {

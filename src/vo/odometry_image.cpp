@@ -12,9 +12,10 @@ namespace {
 
 // What tears once tears again, and only the first of such images repeats rows that were shown.
 constexpr int kFramesToDoubt = 20;
-// Of what the frames before had, on average over so many. Smeared over 8 px, a frame has 0.3 to 0.5
-// along the smear; recordings shaken by hand, 0.6 and more from one frame to the next.
-constexpr double kBlurredShare = 0.5;
+// Of what the frames before had, on average over so many. Smeared over 8 px of the thumbnail, a
+// frame has 0.5 to 0.66 along the smear, over 16 px 0.4 to 0.5; recordings and drives 0.69 and more
+// from one frame to the next, and in a few frames of 96 px 0.52.
+constexpr double kBlurredShare = 0.6;
 constexpr double kSharpnessFrames = 16.0;
 
 }  // namespace
@@ -56,9 +57,13 @@ void Odometry::State::note_repeats(const ImageMeasure& measure, Estimate& estima
 
 // Smeared edges are found, but less sharply, and not quite where they are.
 void Odometry::State::note_blur(const ImageMeasure& measure, Estimate& estimate) {
+  // On the half-sized image all pixels can be looked at: of a bare wall's few edges, some are not
+  // enough.
+  const int level = std::min(1, static_cast<int>(left.size()) - 1);
+  const Sharpness sharpness = measure_sharpness(left[level].grey, measure.noise / (1 << level));
   bool is_blurred = false;
-  for (std::size_t axis = 0; axis < measure.sharpness.size(); ++axis) {
-    const double now = measure.sharpness[axis];
+  for (std::size_t axis = 0; axis < sharpness.size(); ++axis) {
+    const double now = sharpness[axis];
     double& usual = usual_sharpness[axis];
     if (now <= 0.0) continue;
     is_blurred |= now < kBlurredShare * usual;

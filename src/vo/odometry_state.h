@@ -66,15 +66,15 @@ struct Odometry::State {
   std::optional<Se3> hinted;  // T_previous_left, for the next frame only
   bool is_reseed_wanted = false;
   int reset_counter = 0;
-  int track = 0;                               // in the ring; what reset_counter was when it began
-  int frames_since_look = 0;                   // at the right eye
-  bool do_eyes_disagree = false;               // as far as the last looks could tell
-  int looks_alike = 0;                         // in a row
-  int misplaced_looks = 0;                     // in a row
-  ImageMeasure previous_measure;               // of the left eye
-  int frames_to_doubt = 0;                     // after an image that was torn
-  std::array<double, 2> usual_sharpness = {};  // along x and y; 0: not known yet
-  int frames_to_watch = 0;                     // for a body that passes before the cameras, and …
+  int track = 0;                   // in the ring; what reset_counter was when it began
+  int frames_since_look = 0;       // at the right eye
+  bool do_eyes_disagree = false;   // as far as the last looks could tell
+  int looks_alike = 0;             // in a row
+  int misplaced_looks = 0;         // in a row
+  ImageMeasure previous_measure;   // of the left eye
+  int frames_to_doubt = 0;         // after an image that was torn
+  Sharpness usual_sharpness = {};  // along x and y; 0: not known yet
+  int frames_to_watch = 0;         // for a body that passes before the cameras, and …
   int frames_of_body = 0;  // … for which one that was told from the world is taken to be there
   PoseCovariance covariance;
   bool is_reported_measured = false;  // the last Estimate's pose is what the next is relative to

@@ -60,7 +60,7 @@ TEST(MeasureImage, TellsSharpEdgesFromSmearedOnesAlongEachAxis) {
         image.view().at(x, y) = static_cast<std::uint8_t>(40 + along_x + (y / 16 % 2) * 60);
       }
     }
-    return measure_image(image.view()).sharpness;
+    return measure_sharpness(image.view(), 0.0);
   };
   const auto sharp = sharpness_of(1);
   const auto smeared = sharpness_of(8);
@@ -71,9 +71,9 @@ TEST(MeasureImage, TellsSharpEdgesFromSmearedOnesAlongEachAxis) {
 TEST(MeasureImage, KnowsNoSharpnessOfNoiseAndOfNothing) {
   GuardedImage<std::uint8_t> image({.width = 128, .height = 96});
   test::fill_image(image.view(), test::Fill::kConstant, 90);
-  EXPECT_EQ(measure_image(image.view()).sharpness[0], 0.0);
+  EXPECT_EQ(measure_sharpness(image.view(), 1.0)[0], 0.0);
   test::fill_image(image.view(), test::Fill::kUniform, 1);
-  EXPECT_EQ(measure_image(image.view()).sharpness[0], 0.0);
+  EXPECT_EQ(measure_sharpness(image.view(), measure_image(image.view()).noise)[0], 0.0);
 }
 
 TEST(Repetition, IsOfAllOrOfRowsAndNotOfWhatIsPlain) {
