@@ -86,8 +86,10 @@ void Odometry::State::note_surprise(const Se3& T_world_left, Estimate& estimate)
 }
 
 // Looks for a second motion where there may be one: much does not fit, or there was one just now.
+// Not after frames that are not predicted: it would start from anywhere.
 void Odometry::State::watch_for_bodies(std::span<const Se3> guesses, Alignment& alignment,
                                        Estimate& estimate) {
+  if (estimate.sequence - previous_sequence > kMaxPredictedFrames) return;
   if (frames_to_watch == 0 &&
       share_of_misfits(keyframe.levels[0].points, residuals) < kSuspiciousMisfits) {
     return;
