@@ -80,9 +80,9 @@ void Odometry::State::note_surprise(const Se3& T_world_left, Estimate& estimate)
   if (!T_before_previous) return;
   const Vector6 off = minus(T_world_left, predict(estimate.sequence));
   const auto inverse_depth_focal = static_cast<double>(keyframe.levels[0].mean_inverse_depth_focal);
-  if (motion_px(off, inverse_depth_focal, rig.focal_px) <= kMaxSurprise * rig.width) return;
-  estimate.reasons |= kReasonStepTooLarge;
-  estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+  if (motion_px(off, inverse_depth_focal, rig.focal_px) > kMaxSurprise * rig.width) {
+    note(kReasonStepTooLarge, TrackStatus::kDegraded, estimate);
+  }
 }
 
 // Looks for a second motion where there may be one: much does not fit, or there was one just now.
@@ -112,9 +112,10 @@ void Odometry::State::watch_for_bodies(std::span<const Se3> guesses, Alignment& 
   const bool is_after_gap = estimate.sequence - previous_sequence > 1;
   count_down(count == MotionCount::kTwo && !is_after_gap, kFramesOfBody, frames_of_body);
   count_down(count != MotionCount::kOne && !is_after_gap, kFramesToWatch, frames_to_watch);
-  if (count == MotionCount::kOne && frames_to_watch <= kFramesToWatch - kFramesOfBody) return;
-  estimate.reasons |= kReasonMovingBody;
-  estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+  const bool was_just_seen = frames_to_watch > kFramesToWatch - kFramesOfBody;
+  if (count != MotionCount::kOne || was_just_seen) {
+    note(kReasonMovingBody, TrackStatus::kDegraded, estimate);
+  }
 }
 
 // T_world_left of frame `sequence` if the last measured motion goes on, which it does not for ever.

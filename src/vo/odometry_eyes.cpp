@@ -75,13 +75,10 @@ void Odometry::State::look_at_right_eye(const StereoFrame& frame, const Se3& T_l
 }
 
 void Odometry::State::report_eyes(Estimate& estimate) const {
-  const auto note = [&estimate](bool is_so, Reason reason) {
-    if (!is_so) return;
-    estimate.reasons |= reason;
-    if (estimate.status == TrackStatus::kValid) estimate.status = TrackStatus::kDegraded;
-  };
-  note(do_eyes_disagree, kReasonEyesDisagree);
-  note(misplaced_looks >= kLooksBeforeSuspicion, kReasonCalibSuspect);
+  if (do_eyes_disagree) note(kReasonEyesDisagree, TrackStatus::kDegraded, estimate);
+  if (misplaced_looks >= kLooksBeforeSuspicion) {
+    note(kReasonCalibSuspect, TrackStatus::kDegraded, estimate);
+  }
 }
 
 }  // namespace darkling

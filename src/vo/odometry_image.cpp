@@ -41,16 +41,12 @@ ImageMeasure Odometry::State::prepare_left(const StereoFrame& frame, Estimate& e
 void Odometry::State::note_repeats(const ImageMeasure& measure, Estimate& estimate) {
   const auto [is_whole, is_partial] =
       repetition_of(measure, std::exchange(previous_measure, measure));
-  const auto note = [&estimate](Reason reason, TrackStatus status) {
-    estimate.reasons |= reason;
-    estimate.status = std::max(estimate.status, status);
-  };
-  if (is_whole) note(kReasonFrozen, TrackStatus::kLost);
+  if (is_whole) note(kReasonFrozen, TrackStatus::kLost, estimate);
   if (is_partial) {
-    note(kReasonTorn, TrackStatus::kLost);
+    note(kReasonTorn, TrackStatus::kLost, estimate);
     frames_to_doubt = kFramesToDoubt;
   } else if (frames_to_doubt > 0) {
-    note(kReasonTorn, TrackStatus::kDegraded);
+    note(kReasonTorn, TrackStatus::kDegraded, estimate);
     --frames_to_doubt;
   }
 }
@@ -69,9 +65,7 @@ void Odometry::State::note_blur(const ImageMeasure& measure, Estimate& estimate)
     is_blurred |= now < kBlurredShare * usual;
     usual += usual > 0.0 ? (now - usual) / kSharpnessFrames : now;
   }
-  if (!is_blurred) return;
-  estimate.reasons |= kReasonBlur;
-  estimate.status = std::max(estimate.status, TrackStatus::kDegraded);
+  if (is_blurred) note(kReasonBlur, TrackStatus::kDegraded, estimate);
 }
 
 }  // namespace darkling

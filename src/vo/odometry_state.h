@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "base/arena.h"
@@ -20,6 +21,12 @@
 #include "vo/window.h"
 
 namespace darkling {
+
+// Adds a reason, and that the frame is no better than `status` for it.
+inline void note(Reason reason, TrackStatus status, Estimate& estimate) {
+  estimate.reasons |= reason;
+  estimate.status = std::max(estimate.status, status);
+}
 
 // What Odometry keeps between frames; all image and point memory is in the arena.
 struct Odometry::State {
